@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, scene_axes, style
+from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.sheets.cam_sheets import follower_discs
 from gearlink.cli.views.scenes import of_motion
 from gearlink.cli.views.scenes.scene import (
     BLUE,
@@ -68,30 +69,38 @@ def _cams(design: DiscCamDesign, fraction: Reals) -> list[Part]:
     if design.spec.is_flat:
         outline = cams.flat.points(_CLOSE)[0]
         return [Body(outline=outline, place=axis, turn=turn, color=BLUE, fill=pale(BLUE, 0.15), width=1.6)]
-    walls = [
-        cams.main,
-        *([cams.outer_wall] if design.spec.closure == "groove" else []),
-        *([cams.back] if cams.back else []),
-    ]
+    if design.spec.closure == "groove":  # its inner wall on the outer one
+        return [disc_cam(cam, axis, turn, color) for cam, color in ((cams.outer_wall, ORANGE), (cams.main, BLUE))]
+    walls = [cams.main, *([cams.back] if cams.back else [])]
     return [disc_cam(cam, axis, turn, color) for cam, color in zip(walls, (BLUE, ORANGE), strict=False)]
 
 
 def _followers(design: DiscCamDesign, fraction: Reals) -> list[Part]:
     cams, phi = design.cams, _TURN * fraction
     if design.spec.is_flat:
-        low, high = cams.flat.contact_places
-        touch = cams.flat.touch(phi)
-        along = -1j * touch.normal
-        if design.spec.oscillates:  # places count from the pivot, along the arm
-            along = np.exp(1j * cams.arm_angle(cams.place, phi, 0)[0])
-        ends = [touch.point + along * (place - touch.place) for place in (low - 0.1 * (high - low), _REACH * high)]
-        return [Chain(joints=(ends[0], ends[1]), color=GREY, marked=False), *_stem(design, touch.point)]
+        return _face(design, phi)
     found: list[Part] = [*_stem(design, cams.main.path(phi, 1).position)]
     for cam, color in ((cams.main, BLUE), (cams.back, ORANGE)):
         if cam is not None:
             center = cam.path(phi, 1).position
             found.append(wheel(center, cam.roller_radius, fraction, color=color, fill=pale(color, 0.3)))
     return found
+
+
+def _face(design: DiscCamDesign, phi: Reals) -> list[Part]:
+    """A flat face as far as the cam touches it, on the rod of a slide or on the arm of a rocker."""
+    cams = design.cams
+    touch, (low, high) = cams.flat.touch(phi), cams.flat.contact_places
+    along = -1j * touch.normal
+    if design.spec.oscillates:  # places count from the pivot, along the arm
+        along = np.exp(1j * cams.arm_angle(cams.place, phi, 0)[0])
+    foot = touch.point - touch.place * along
+    if design.spec.oscillates:
+        pivot = track(cams.pivot, phi)
+        return [Chain(joints=(pivot, foot, foot + _REACH * high * along), marked=False)]
+    beyond = (_REACH - 1.0) * max(abs(low), abs(high))
+    ends = foot + (low - beyond) * along, foot + (high + beyond) * along
+    return [Chain(joints=ends, color=GREY, marked=False), *_stem(design, foot)]
 
 
 def _stem(design: DiscCamDesign, start: Points) -> list[Part]:
@@ -130,16 +139,63 @@ _SHOWN = 0.125
 
 def draw_disc(command: str, design: DiscCamDesign) -> Figure:
     """The picture of a command on a disc cam."""
-
-    outline, rows = _page(f"{design.spec.name}: {command}", 3.2)
+    flat = design.spec.is_flat
+    outline, rows = _page(f"{design.spec.name}: {command}", 3.2, 4 if flat else 5)
     panels.drawing(outline, "Cam and follower an eighth of a revolution after cam angle 0")
     scene = build(design, np.array([_SHOWN]))
-    scene_axes.draw(outline, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])))
+    driven = 0j, design.spec.cam.sense * _TURN * scene_axes.AHEAD
+    scene_axes.draw(outline, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])), driven=driven)
     phi = np.linspace(0.0, 2.0 * math.pi, 1441)
     rates = design.cams.motion.evaluate(phi, 3)
     rates[:] = [np.where(phi == phi[-1], design.cams.motion.evaluate(phi, 3, side=-1)[n], rates[n]) for n in range(4)]
     _motion(rows, phi, rates, "rad" if design.spec.oscillates else "mm")
+    if flat:
+        _cut_by_face(outline, design)
+    else:
+        _pitch_curves(outline, design)
+        _pressure(rows[-1], design)
+    _in_time(rows[-1], design)
     return outline.figure  # type: ignore[return-value]
+
+
+def _cut_by_face(axes: Axes, design: DiscCamDesign) -> None:
+    """In red, where the profile under a flat face is more sharply curved than its limit."""
+    flat = design.cams.flat
+    (check,) = design.check_cam_undercut()
+    lost = flat.touch(_CLOSE).radius < (check.limit or 0.0)
+    if lost.any():
+        where = flat.points(_CLOSE)[0] * np.exp(1j * design.spec.cam.sense * _TURN * _SHOWN)
+        failing.past(axes, where.real, where.imag, lost, "radius below its limit")
+        panels.legend_above(axes, 1)
+
+
+def _pitch_curves(axes: Axes, design: DiscCamDesign) -> None:
+    """Pitch curves where the cams are drawn, and in red where the roller cuts into a profile."""
+    turned = np.exp(1j * design.spec.cam.sense * _TURN * _SHOWN)
+    label = "pitch curve"
+    for cam in follower_discs(design):
+        pitch, profile = (points * turned for points in cam.points(_CLOSE))
+        look: Any = {"color": style.GREY, "linewidth": 0.9, "linestyle": style.CHAIN, "gid": "pitch curve"}
+        axes.plot(pitch.real, pitch.imag, label=label, zorder=3.0, **look)
+        panels.cut(axes, cam, profile)
+        label = "_"
+    panels.legend_above(axes, 4)
+
+
+def _pressure(axes: Axes, design: DiscCamDesign) -> None:
+    """Pressure angle of each cam with the limits of rise and return, above which it is red."""
+    rise, back = design.spec.pressure_limits()
+    panels.pressure_angles(axes, follower_discs(design), max(rise, back), "cam angle [deg]")
+    if rise == back:
+        return
+    speed = design.cams.motion.evaluate(_CLOSE, 1)[1]
+    lesser, stroke, words = (rise, speed > 0.0, "rise") if rise < back else (back, speed < 0.0, "return")
+    for cam in follower_discs(design):
+        values = np.degrees(cam.pressure_angle(_CLOSE))
+        failing.past(axes, np.degrees(_CLOSE), values, stroke & (np.abs(values) > lesser), "above the limit")
+    for sign, label in ((1.0, f"{words} ±{lesser:g}°"), (-1.0, "_")):
+        axes.axhline(sign * lesser, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=label)
+    panels.legend_above(axes, 4)
 
 
 def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
@@ -150,23 +206,24 @@ def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
     for side, color, width in ((0, style.GREY, 0.9), (1, style.BLUE, 1.6), (-1, style.BLUE, 1.6)):
         track.plot(*drum.developed(drum.bottom, side, phi), color=color, linewidth=width)
     _motion(rows, phi, design.follower_motion.evaluate(phi, 3), "mm")
+    _in_time(rows[-1], design)
     return track.figure  # type: ignore[return-value]
 
 
-def _page(title: str, height: float) -> tuple[Axes, list[Axes]]:
-    """A drawing of a height above panels of the motion."""
+def _page(title: str, height: float, count: int = 4) -> tuple[Axes, list[Axes]]:
+    """A drawing of a height above so many panels."""
     made = panels.page(title)
-    grid = made.add_gridspec(5, 1, height_ratios=(height, 1.0, 1.0, 1.0, 1.0))
-    drawing, *rows = (made.add_subplot(grid[i]) for i in range(5))
+    grid = made.add_gridspec(count + 1, 1, height_ratios=(height, *count * (1.0,)))
+    drawing, *rows = (made.add_subplot(grid[i]) for i in range(count + 1))
     return drawing, rows
 
 
 def _motion(rows: list[Axes], phi: Any, rates: Any, unit: str) -> None:
     """Lift and its derivatives over the cam angle."""
-    for order, (axes, label, color) in enumerate(zip(rows, _LABELS, _COLORS, strict=True)):
+    for order, (axes, label, color) in enumerate(zip(rows[:4], _LABELS, _COLORS, strict=True)):
         power = ("", "/rad", "/rad²", "/rad³")[order]
-        shown = "deg" if unit == "rad" and order == 0 else f"{unit}{power}"
-        panels.turn_panel(axes, f"{label} [{shown}]", "cam angle [deg]" if order == 3 else "")
+        shown = ("deg", "1", "1/rad", "1/rad²")[order] if unit == "rad" else f"{unit}{power}"
+        panels.turn_panel(axes, f"{label}\n[{shown}]", "cam angle [deg]" if axes is rows[-1] else "")
         values = np.degrees(rates[order]) if unit == "rad" and order == 0 else rates[order]
         axes.plot(np.degrees(phi), values, color=color, linewidth=1.6)
 
@@ -196,7 +253,14 @@ def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
         panels.turn_panel(axes, label, "cam angle [deg]" if k == 2 else "")
         axes.plot(table["cam_angle"], table[name], color=color, linewidth=1.6)
     _shade(rows, design)
+    _in_time(rows[-1], design)
     return made
+
+
+def _in_time(axes: Axes, design: Any) -> None:
+    """The cam angle in ms as well, where the file has the speed of the cam [rev/min]."""
+    speed = getattr(design.spec, "speed", None)
+    time_axes.over_input(axes, None if speed is None else 6e4 / speed)
 
 
 def _shade(rows: list[Axes], design: MeasuredCamDesign) -> None:

@@ -7,47 +7,73 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, scene_axes, style
+from gearlink.cli.views.figures.drawing import panels, scene_axes, style, time_axes
 from gearlink.cli.views.scenes.linkages import builder
+from gearlink.cli.views.scenes.of_motion import inputs
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from gearlink.core.mechanism.motion import Motion
 
 _LABELS = ("position", "velocity", "acceleration")
 _SHOWN = 0.125
 """Share of the loop: where it begins links often lie in line."""
+_HIGH = 1.8
+"""Height of a mechanism over its width from which it stands beside the curves."""
+_ABOVE = "Mechanism after an eighth of the cycle, pale half a cycle later"
 _COLORS = (style.BLUE, style.GREEN, style.PURPLE)
 
 
 def draw(command: str, design: Any) -> Figure:
-    """The picture of a command."""
-    motion = design.moving
+    """The picture of a command; beside the curves where the mechanism is high, else above them."""
+    motion, build = design.moving, builder(design.kind)
     made = panels.page(f"{design.spec.name}: {command}")
-    grid = made.add_gridspec(4, 1, height_ratios=(2.2, 1.0, 1.0, 1.0))
-    build, mechanism = builder(design.kind), made.add_subplot(grid[0])
-    panels.drawing(mechanism, "Mechanism after an eighth of the cycle, pale half a cycle later")
     scene = build(design, np.array([_SHOWN, _SHOWN + 0.5]))
-    scene_axes.draw(mechanism, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])))
+    wide, high = scene_axes.sides(scene)
+    beside = high > _HIGH * wide
+    grid: Any = made.add_gridspec(3, 2) if beside else made.add_gridspec(4, 1, height_ratios=(2.2, 1.0, 1.0, 1.0))
+    mechanism = made.add_subplot(grid[:, 0] if beside else grid[0])
+    words = "After an eighth of the cycle, pale half later" if beside else _ABOVE
+    panels.drawing(mechanism, words)
+    ahead = build(design, np.array([_SHOWN + scene_axes.AHEAD]))
+    scene_axes.draw(mechanism, scene, ahead=ahead, driven=_driven(motion))
     scene_axes.lightly(mechanism, scene, 1)
-    given, output = motion.input, motion.outputs[0]
-    turning = given.unit == "rad"
-    q = np.linspace(given.start, given.end, 721)
-    for order, rate in enumerate(output.course.rates(motion, q, 2)):
-        axes = made.add_subplot(grid[order + 1])
-        angle = output.course.unit == "rad"
-        unit = (
-            ("deg" if angle else output.course.unit) if order == 0 else _per_input(output.course.unit, order, turning)
-        )
-        x_label = f"{given.column.replace('_', ' ')} [{'deg' if turning else 'mm'}]" if order == 2 else ""
-        panels.turn_panel(axes, f"{_LABELS[order]} [{unit}]", x_label)
-        if given.turns != 1:
-            panels.few_ticks(axes.xaxis, 9)
-        axes.set_xlim(*(math.degrees(end) if turning else end for end in (given.start, given.end)))
-        axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
-                  color=_COLORS[order], linewidth=1.6, label=output.name)  # fmt: skip
-        if order == 0:
-            panels.heading(axes, output.name.replace("_", " "))
+    rows = [made.add_subplot(grid[order, 1] if beside else grid[order + 1]) for order in range(3)]
+    for order, axes in enumerate(rows):
+        _curve(axes, motion, order, narrow=beside)
+    panels.heading(rows[0], motion.outputs[0].name.replace("_", " "))
+    time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
+
+
+def _driven(motion: Motion) -> tuple[complex, float] | None:
+    """Axis of the link that the input turns and how far it turns until the position ahead; None of other inputs."""
+    first, later = (inputs(motion.input, np.array([share])) for share in (_SHOWN, _SHOWN + scene_axes.AHEAD))
+    now, then = motion.at(first, 0), motion.at(later, 0)
+    link, moved = now.links.get(now.drive), then.links.get(then.drive)
+    if link is None or moved is None or abs(complex(moved.origin.value[0] - link.origin.value[0])) > 1e-9:
+        return None
+    return complex(link.origin.value[0]), float(moved.turn.value[0] - link.turn.value[0])
+
+
+def _curve(axes: Axes, motion: Motion, order: int, *, narrow: bool) -> None:
+    """The output or one of its derivatives over the input."""
+    given, output = motion.input, motion.outputs[0]
+    turning, angle = given.unit == "rad", output.course.unit == "rad"
+    q = np.linspace(given.start, given.end, 721)
+    rate = output.course.rates(motion, q, order)[order]
+    unit = ("deg" if angle else output.course.unit) if order == 0 else _per_input(output.course.unit, order, turning)
+    x_label = f"{given.column.replace('_', ' ')} [{'deg' if turning else 'mm'}]" if order == 2 else ""
+    panels.turn_panel(axes, f"{_LABELS[order]} [{unit}]", x_label)
+    if given.turns != 1:
+        panels.few_ticks(axes.xaxis, 5 if narrow else 9)
+    elif narrow:
+        style.full_turn(axes)
+    axes.set_xlim(*(math.degrees(end) if turning else end for end in (given.start, given.end)))
+    axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
+              color=_COLORS[order], linewidth=1.6, label=output.name)  # fmt: skip
 
 
 def _per_input(unit: str, order: int, turning: bool) -> str:

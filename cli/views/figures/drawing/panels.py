@@ -319,7 +319,7 @@ def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: 
     style.area(axes, profile, color=color, alpha=0.08, linewidth=0)
     words = f"{cam.name}, profile"
     axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, linestyle=line, label=words, zorder=3)
-    _cut(axes, cam, profile)
+    cut(axes, cam, profile)
     dashes: Any = (0, (5, 3))
     axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
     style.circle(axes, roller, cam.roller_radius, color=color, linewidth=1.4, zorder=4)
@@ -327,8 +327,11 @@ def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: 
     return roller
 
 
-def _cut(axes: Axes, cam: DiscCam, profile: Any) -> None:
-    """In red, where the roller cuts into the profile: the pitch curve is more sharply convex than the roller."""
+def cut(axes: Axes, cam: DiscCam, profile: Any) -> None:
+    """In red, where the roller cuts into the profile: the pitch curve is more sharply convex than the roller.
+
+    profile : (721,) array - the profile from cam angle 0 to 360 deg as it is drawn [mm]
+    """
     import numpy as np
 
     lost = cam.curvature(np.radians(_turn_angles())) * cam.roller_radius >= 1.0

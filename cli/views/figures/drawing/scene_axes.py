@@ -33,11 +33,14 @@ AHEAD = 1e-5
 """So far ahead in the loop is the position that tells in which sense a gear turns."""
 
 
-def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> None:
+def draw(
+    axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None, driven: tuple[complex, float] | None = None
+) -> None:
     """A position of a scene with its letters; what only an animation needs is left out.
 
     Parameters
         ahead : Scene or None - the same a moment later: then arrows show in which sense gears and input turn
+        driven : axis of the input and how far it turns meanwhile; by default the first link on a fixed pivot
     """
     shown = _position(scene, i)
     for k, part in enumerate(shown.parts):
@@ -57,7 +60,7 @@ def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> No
         if mark.pivot:
             style.pivot(axes, complex(mark.point[0]))
     if ahead is not None:
-        for center, radius, sense, color in turning(shown, _position(ahead, 0)):
+        for center, radius, sense, color in turning(shown, _position(ahead, 0), driven):
             _sense(axes, shown, center, radius, sense, color)
     _words(axes, shown)
     _keys(axes, scene)
@@ -102,8 +105,10 @@ def two_positions(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene])
     lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
 
 
-def turning(shown: Scene, ahead: Scene) -> list[tuple[complex, float, int, str]]:
-    """Axis, radius [mm], sense and colour of what turns in a scene: its gears, and the first link on a fixed pivot."""
+def turning(
+    shown: Scene, ahead: Scene, driven: tuple[complex, float] | None = None
+) -> list[tuple[complex, float, int, str]]:
+    """Axis, radius [mm], sense and colour of what turns in a scene: its gears, and the input, as for `draw`."""
     found = []
     for body, later in zip(shown.parts, ahead.parts, strict=True):
         if isinstance(body, Body) and isinstance(later, Body) and body.pitch:
@@ -112,8 +117,10 @@ def turning(shown: Scene, ahead: Scene) -> list[tuple[complex, float, int, str]]
             if abs(step) > 1e-3 * AHEAD:
                 ring = body.repeats == 0 and bool(np.abs(body.outline).max() > 1.15 * body.pitch)
                 found.append((complex(body.place[0]), (1.0 if ring else 0.78) * body.pitch, step, body.color))
+    if driven is not None:
+        found.append((driven[0], _free_radius(shown, driven[0]), driven[1], style.BLACK))
     chains = [(a, b) for a, b in zip(shown.parts, ahead.parts, strict=True) if isinstance(a, Chain) and a.marked]
-    for chain, later_chain in chains[:1]:
+    for chain, later_chain in chains[:1] if driven is None else ():
         assert isinstance(later_chain, Chain), "the same parts a moment later"
         (start, end), (fixed, moved) = chain.joints[:2], later_chain.joints[:2]
         arm = complex(end[0] - start[0])
@@ -121,6 +128,27 @@ def turning(shown: Scene, ahead: Scene) -> list[tuple[complex, float, int, str]]
             step = float(np.angle(complex(moved[0] - fixed[0]) / arm))
             found.append((complex(start[0]), 0.5 * abs(arm), step, chain.color))
     return [(center, radius, 1 if step > 0.0 else -1, color) for center, radius, step, color in found if step]
+
+
+def _free_radius(shown: Scene, axis: complex) -> float:
+    """Half of the shortest bar or the smallest disc about an axis; without either a tenth of the drawing."""
+    whole = _size(shown)
+    joints = [[complex(joint[0]) for joint in part.joints] for part in shown.parts if isinstance(part, Chain)]
+    pairs = [pair for each in joints if len(each) > 1 for pair in (each[:2], each[:-3:-1])]
+    found = [0.5 * abs(far - near) for near, far in pairs if abs(near - axis) < 1e-9 * whole]
+    for body in shown.parts:
+        if isinstance(body, Body) and abs(complex(body.place[0]) - axis) < 1e-9 * whole:
+            found.append(0.5 * float(np.abs(body.outline).min()))
+    return min((radius for radius in found if radius > 1e-6 * whole), default=0.1 * whole)
+
+
+def sides(scene: Scene) -> tuple[float, float]:
+    """Width and height of what is drawn of all positions of a scene [mm]."""
+    reached = [placed(part, i) for part in scene.parts if isinstance(part, Body) for i in range(len(part.place))]
+    reached += [joint for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
+    points = np.concatenate(reached)
+    points = points[np.isfinite(points)]
+    return float(np.ptp(points.real)), float(np.ptp(points.imag))
 
 
 def _sense(axes: Axes, shown: Scene, center: complex, radius: float, sense: int, color: str) -> None:

@@ -56,7 +56,7 @@ def figure(width: float, height: float, title: str) -> Figure:
 
 def stamp(made: Figure, words: str) -> None:
     """A line in red below the title, before the layout."""
-    lines = fill(words, 105)
+    lines = fill(words, 105, break_on_hyphens=False)
     title = made._suptitle  # type: ignore[attr-defined]  # get_suptitle gives its words alone
     if title is not None:
         title.set_text(title.get_text() + "\n" * (1 + lines.count("\n")))

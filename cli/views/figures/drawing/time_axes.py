@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +28,11 @@ _UNITS_OF_A_TURN = {
 
 def turn_time(design: Any) -> float | None:
     """Time of an input turn of a design [ms]; None where its speed is not known."""
+    from gearlink.cli.views.scenes.shown import speed_of
+
     found: float | None = getattr(design, "turn_time", None)
+    if found is None and (speed := speed_of(design)):
+        found = 2e3 * math.pi / abs(speed)
     return found
 
 

@@ -1,0 +1,141 @@
+"""Pictures of cams and of mechanisms of any kind: what stands still, what turns and what fails is drawn so."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import changed, design
+from sheets import lines, panel, panel_named, points, sheet, tagged
+
+from gearlink.cli.views.figures import cams
+from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.scenes.scene import Body, Chain
+
+MOTION = [
+    {"to": 120, "lift": 15, "law": "modified-sine"},
+    {"to": 180},
+    {"to": 300, "lift": 0, "law": "polynomial-4567"},
+    {"to": 360},
+]
+FLAT: dict[str, Any] = {
+    "kind": "disc-cam",
+    "motion": MOTION,
+    "follower": {"type": "translating-flat", "direction": 70},
+    "cam": {"base_radius": 25, "sense": -1},
+}
+ROCKER = {**FLAT, "follower": {"type": "oscillating-flat", "center_distance": 120, "face_offset": 5}}
+STEEP: dict[str, Any] = {
+    **FLAT,
+    "motion": [{"to": 60, "lift": 30, "law": "modified-sine"}, {"to": 150}, {"to": 240, "lift": 0}, {"to": 360}],
+    "follower": {"type": "translating-roller", "roller_radius": 22},
+    "cam": {"prime_radius": 38, "sense": -1},
+    "limits": {"pressure_angle": [35, 25]},
+}
+SHARES = np.linspace(0.0, 1.0, 9)
+
+
+def _chains(data: dict[str, Any]) -> list[Chain]:
+    return [part for part in cams.build(design(data), SHARES).parts if isinstance(part, Chain)]
+
+
+def test_the_rod_of_a_flat_face_stays_on_its_line_of_travel() -> None:
+    """It ran along the face with the contact."""
+    face, rod = _chains(FLAT)
+    travel = cmath.exp(1j * math.radians(70.0))
+    for end in rod.joints:
+        assert np.abs((end / travel).imag).max() < 1e-12
+    assert np.abs(((face.joints[1] - face.joints[0]) / travel).real).max() < 1e-12, "the face lies across"
+    touch = design(FLAT).cams.flat.touch(2.0 * math.pi * SHARES).point
+    for k, place in enumerate(touch):
+        ends = [complex(joint[k]) for joint in face.joints]
+        assert abs(ends[0] - place) + abs(ends[1] - place) == pytest.approx(abs(ends[1] - ends[0]), rel=1e-12)
+
+
+def test_the_face_of_a_rocker_hangs_on_its_pivot() -> None:
+    """It floated, with no link to A."""
+    (arm,) = _chains(ROCKER)
+    made = design(ROCKER)
+    pivot, foot, end = arm.joints
+    assert np.abs(pivot - made.cams.pivot).max() < 1e-12
+    assert np.abs(foot - pivot) == pytest.approx(5.0, rel=1e-12)
+    touch = made.cams.flat.touch(2.0 * math.pi * SHARES)
+    assert np.abs(((end - foot) * touch.normal.conjugate()).real).max() < 1e-9, "along the tangent of the cam"
+    assert np.abs(((touch.point - foot) * touch.normal.conjugate()).real).max() < 1e-9
+
+
+def test_the_inner_wall_of_a_groove_lies_on_the_outer_one() -> None:
+    """It was under it, and not to be seen."""
+    data = {**FLAT, "follower": {"type": "translating-roller", "roller_radius": 10}, "cam": {"prime_radius": 60}}
+    bodies = [
+        part for part in cams.build(design({**data, "closure": "groove"}), SHARES).parts if isinstance(part, Body)
+    ]
+    outer, inner = (float(np.abs(body.outline).max()) for body in bodies[:2])
+    assert outer == pytest.approx(inner + 20.0, abs=0.5)
+
+
+@pytest.mark.slow
+def test_a_steep_cam_is_red_where_its_pressure_angle_passes_the_limit_of_its_stroke() -> None:
+    made, figure = sheet(STEEP, "cam")
+    axes = panel(figure, "Pressure angle")
+    found = lines(axes)
+    (curve,) = (line for name, line in found.items() if name.startswith("main cam"))
+    degrees = np.asarray(curve.get_xdata())
+    angle = np.degrees(made.cams.main.pressure_angle(np.radians(degrees)))
+    assert np.array_equal(curve.get_ydata(), angle)
+    red = {round(float(x), 6) for line in tagged(figure, "fails") if line.axes is axes
+           for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True) if np.isfinite(y)}  # fmt: skip
+    inside = (degrees > 1.0) & (degrees < 359.0)
+    for low, high, limit in ((0.0, 60.0, 35.0), (150.0, 240.0, 25.0)):
+        over = inside & (degrees > low) & (degrees < high) & (np.abs(angle) > limit)
+        assert over.any()
+        assert set(degrees[over].round(6).tolist()) <= red
+    assert len(red) <= sum(
+        ((degrees >= low) & (degrees <= high) & (np.abs(angle) > limit)).sum() + 4
+        for low, high, limit in ((0.0, 60.0, 35.0), (150.0, 240.0, 25.0))
+    )
+
+
+@pytest.mark.slow
+def test_a_face_is_red_on_the_cam_where_it_undercuts() -> None:
+    data = changed(ROCKER, cam={"base_radius": 35, "sense": 1})
+    made, figure = sheet(data, "cam")
+    (red,) = tagged(figure, "fails")
+    radius = made.cams.flat.touch(np.linspace(0.0, 2.0 * math.pi, 721)).radius
+    assert red.get_color() == style.WRONG
+    assert np.isfinite(red.get_ydata()).sum() == pytest.approx((radius < 0.0).sum(), abs=2)
+    assert (radius < 0.0).any()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["planar_cam", "crank_rocker_links", "lift_cam"])
+def test_the_arrow_stands_about_the_axis_of_the_input(name: str) -> None:
+    """In the picture of a cam that moves a lever it stood at the lever."""
+    made, figure = sheet(name)
+    (arc,) = tagged(figure, "sense")
+    z = points(arc)  # the axis is the origin
+    assert np.ptp(np.abs(z)) < 1e-9 * np.abs(z).max()
+    sense = made.spec.cam.sense if name == "lift_cam" else 1
+    assert sense * float(np.angle(z[-1] / z[0])) > 0.0
+
+
+@pytest.mark.slow
+def test_a_high_mechanism_stands_beside_its_curves() -> None:
+    """It was a dot in a panel as wide as the page."""
+    figure = sheet("planar_bed_chain").figure
+    drawing, *curves = figure.axes
+    assert drawing.get_subplotspec().rowspan.stop == 3
+    assert {axes.get_subplotspec().colspan.start for axes in curves[:3]} == {1}
+    assert sheet("crank_rocker_links").figure.axes[0].get_subplotspec().colspan.stop == 1
+
+
+@pytest.mark.slow
+def test_curves_over_the_input_have_its_time_where_the_speed_is_known() -> None:
+    for name, label, turn in (("planar_cam", "acceleration", 500.0), ("lift_cam", "pressure", 300.0)):
+        axes = panel_named(sheet(name).figure, label)
+        (row,) = (each for each in axes.child_axes if each.get_gid() == "time")
+        assert row._functions[0](np.array([360.0])) == pytest.approx(turn, rel=1e-12)
+    assert not panel_named(sheet("crank_rocker_links", loads=None).figure, "acceleration").child_axes
