@@ -79,7 +79,11 @@ def _followers(design: DiscCamDesign, fraction: Reals) -> list[Part]:
     cams, phi = design.cams, _TURN * fraction
     if design.spec.is_flat:
         return _face(design, phi)
-    found: list[Part] = [*_stem(design, cams.main.path(phi, 1).position)]
+    front = cams.main.path(phi, 1).position
+    found: list[Part] = [*_stem(design, front)]
+    if cams.back is not None:
+        held = track(cams.pivot, fraction) if design.spec.oscillates else front
+        found.append(Chain(joints=(held, cams.back.path(phi, 1).position), marked=False))
     for cam, color in ((cams.main, BLUE), (cams.back, ORANGE)):
         if cam is not None:
             center = cam.path(phi, 1).position
@@ -154,7 +158,7 @@ def draw_disc(command: str, design: DiscCamDesign) -> Figure:
     else:
         _pitch_curves(outline, design)
         _pressure(rows[-1], design)
-    _in_time(rows[-1], design)
+    time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return outline.figure  # type: ignore[return-value]
 
 
@@ -206,7 +210,7 @@ def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
     for side, color, width in ((0, style.GREY, 0.9), (1, style.BLUE, 1.6), (-1, style.BLUE, 1.6)):
         track.plot(*drum.developed(drum.bottom, side, phi), color=color, linewidth=width)
     _motion(rows, phi, design.follower_motion.evaluate(phi, 3), "mm")
-    _in_time(rows[-1], design)
+    time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return track.figure  # type: ignore[return-value]
 
 
@@ -253,14 +257,8 @@ def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
         panels.turn_panel(axes, label, "cam angle [deg]" if k == 2 else "")
         axes.plot(table["cam_angle"], table[name], color=color, linewidth=1.6)
     _shade(rows, design)
-    _in_time(rows[-1], design)
+    time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
-
-
-def _in_time(axes: Axes, design: Any) -> None:
-    """The cam angle in ms as well, where the file has the speed of the cam [rev/min]."""
-    speed = getattr(design.spec, "speed", None)
-    time_axes.over_input(axes, None if speed is None else 6e4 / speed)
 
 
 def _shade(rows: list[Axes], design: MeasuredCamDesign) -> None:

@@ -48,6 +48,7 @@ from gearlink.core.base.errors import GearlinkError, NoSolution, named
 from gearlink.core.mechanism import vectors
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME
+from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Table
@@ -681,7 +682,9 @@ def round_below(most: float) -> float:
 
 def speed_of(design: Any) -> float | None:
     """Speed of the input [rad/s, mm/s], where the file has one."""
-    found = getattr(design, "angular_speed", None)
+    found, given = getattr(design, "angular_speed", None), getattr(design.spec, "speed", None)
+    if found is None and given is not None:  # of cams, in rev/min; machines in sheets/h have the other
+        return float(given) * RPM
     if found is None and getattr(design.spec, "loads", None) is not None:
         loaded = loads_design(design)
         found = None if loaded is None else loaded.speed

@@ -67,6 +67,20 @@ def test_the_face_of_a_rocker_hangs_on_its_pivot() -> None:
     assert np.abs(((touch.point - foot) * touch.normal.conjugate()).real).max() < 1e-9
 
 
+def test_both_rollers_of_a_conjugate_cam_hang_on_their_follower() -> None:
+    """That of the return cam floated."""
+    data = {**FLAT, "closure": "conjugate", "cam": {"prime_radius": 75},
+            "follower": {"type": "oscillating-roller", "roller_radius": 12, "arm": 90, "center_distance": 130},
+            "return_roller": {"angle": 70, "radius": 12, "arm": 80}}  # fmt: skip
+    made = design(data)
+    found = _chains(data)
+    phi = 2.0 * math.pi * SHARES
+    for cam, arm in ((made.cams.main, 90.0), (made.cams.back, 80.0)):
+        (bar,) = [each for each in found if np.abs(each.joints[-1] - cam.path(phi, 1).position).max() < 1e-9
+                  or np.abs(each.joints[0] - cam.path(phi, 1).position).max() < 1e-9]  # fmt: skip
+        assert np.abs(bar.joints[-1] - bar.joints[0]) == pytest.approx(arm, rel=1e-9)
+
+
 def test_the_inner_wall_of_a_groove_lies_on_the_outer_one() -> None:
     """It was under it, and not to be seen."""
     data = {**FLAT, "follower": {"type": "translating-roller", "roller_radius": 10}, "cam": {"prime_radius": 60}}

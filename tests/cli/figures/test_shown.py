@@ -378,9 +378,9 @@ def test_a_tornado_shows_four_quantities_that_their_sources_move(name: str) -> N
         assert len(axes.get_yticks()) == len(widths[0])
 
 
-@pytest.mark.parametrize("name", ["ty460", "swing_gripper", "wide_swing_cycle"])
+@pytest.mark.parametrize("name", ["ty460", "swing_gripper", "wide_swing_cycle", "lift_cam", "barrel_cam"])
 def test_vectors_are_in_real_time_where_the_sheet_of_motion_is(name: str) -> None:
-    """Those of a press, a gripper and a wide swing had been per rad of the input, although the file has a speed."""
+    """Those of a press, a gripper, a wide swing and cams had been per rad of the input despite the file's speed."""
     made = design(name)
     assert shown.speed_of(made) == pytest.approx(motion_sheet.courses(made)[0].speed, rel=1e-12)
     assert [vector_sheet.unit(made, order) for order in (1, 2)] == ["mm/s", "mm/s²"]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gearlink.cli.views.figures.drawing import panels, style, time_axes
 from gearlink.cli.views.figures.sheets import cam_sheets
+from gearlink.cli.views.scenes.shown import speed_of
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism.courses import unit_of
@@ -112,7 +113,7 @@ def courses(design: Any) -> list[Course]:
 
 def of_motion(design: Any) -> list[Course]:
     """The outputs of its motion, over the whole period or range of the input; of many the first that a page holds."""
-    return _courses(design.moving, getattr(design, "angular_speed", None))[:_MOST]
+    return _courses(design.moving, speed_of(design))[:_MOST]
 
 
 def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Course]:
