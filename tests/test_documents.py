@@ -87,6 +87,7 @@ def test_the_readme_has_every_kind_and_is_a_page() -> None:
     text = (ROOT / "README.md").read_text()
     assert set(re.findall(r"^\|.*?\| \[`([\w-]+)`\]", text, re.MULTILINE)) == set(FILES)
     assert text.count("\n") < 200
+    assert [line for line in text.split("\n") if len(line) > 120 and not line.startswith("|")] == []
 
 
 def test_the_page_of_the_commands_has_all_of_them() -> None:
