@@ -92,6 +92,15 @@ class Kind(NamedTuple):
         """The class that serves a command on a spec: that of a synthesis where the file leaves its links to it."""
         return self.design_class(spec.sized_by(command) or command)
 
+    def completed(self, spec: Any) -> Any:
+        """The spec with what its one synthesis finds, where the file leaves its links to that."""
+        if not spec.sized_by("analyze"):
+            return spec
+        from gearlink.core.base.spec_paths import changed
+
+        found = self.class_for("analyze", spec)(spec).completion()
+        return changed(spec, [(one.path, one.value) for one in found])
+
     def design_class(self, command: str) -> Any:
         """The class that serves a command."""
         place = self.commands[command]

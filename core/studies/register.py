@@ -18,7 +18,6 @@ from gearlink.core.base.errors import MissingSection, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.dual import Chain, Dual, Shift
 from gearlink.core.mechanism.joints import Contact, Flank, Pin, SharedContact, Toothed
@@ -679,12 +678,9 @@ class MotionRegister(RegisterDesign):
 
     def __init__(self, spec: Any) -> None:
         kind = KINDS[spec.kind]
-        made = kind.class_for("analyze", spec)(spec)
-        if spec.sized_by("analyze"):  # its links are what scatters
-            spec = changed(spec, [(one.path, one.value) for one in made.completion()])
-            made = kind.class_for("analyze", spec)(spec)
+        spec = kind.completed(spec)  # the links that it finds are what scatters
         super().__init__(spec)
-        self.record, self.design = kind, made
+        self.record, self.design = kind, kind.class_for("analyze", spec)(spec)
         self.kind = kind.name  # type: ignore[misc]  # of a class that serves all kinds
 
     design: Design

@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import Any
 
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
 from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
@@ -42,6 +43,9 @@ class TwoGearLoads(PlanetLinkageLoads):
     kind = "two-gear-four-bar"
     pins = ("A", "B", "C", "D", "A_output")
     outlines = loads_outline(pins, _MESHES, BALANCE)
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(KINDS[self.kind].completed(spec))
 
     @cached_property
     def design(self) -> TwoGearFourBar:

@@ -264,9 +264,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return self.task.linkage_of(self.idler_teeth)
         links = self.spec.links
         if links is None:
-            raise MissingSection(
-                f"`analyze` needs the section links: {{crank: mm, frame: mm}}{self._sought()}", key="links"
-            )
+            raise MissingSection(f"this needs the section links: {{crank: mm, frame: mm}}{self._sought()}", key="links")
         linkage = FourBar(links.crank, self.coupler_length, self.rocker_length, links.frame, self.spec.assembly)
         with at_key("links"):
             check_linkage(linkage)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.parts.linkages.fourbar.mechanism import full_balance
@@ -29,6 +30,9 @@ class ThreeGearLoads(LoadsDesign):
     links = ("crank", "coupler", "rocker", "idler", "output")
     pins, meshes = _PINS, _MESHES
     outlines = loads_outline(_PINS, _MESHES, BALANCE)
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(KINDS[self.kind].completed(spec))
 
     @cached_property
     def design(self) -> ThreeGearFourBar:

@@ -173,11 +173,11 @@ class ThreeGearSpec(DrivenSpec):
         return tuple(command for command, section in asked.items() if section is not None)
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for: a synthesis per section, an analysis where the links are given."""
-        asked = {"analyze": self.links, "loads": self.loads if self.links is not None else None}
-        analysis = [command for command, section in asked.items() if section is not None]
+        """What the file asks for: a synthesis per section, an analysis of given links, the loads with theirs."""
+        analysis = ("analyze",) if self.links is not None else ()
+        loads = ("loads",) if self.loads is not None else ()
         gears = ("gear",) if self.gears.drawing else ()
-        return (*((*self.syntheses(), *analysis) or ("analyze",)), *gears)
+        return (*((*self.syntheses(), *analysis) or ("analyze",)), *loads, *gears)
 
     def sized_by(self, command: str) -> str:
         """The one synthesis of the file, where it leaves out what an analysis or the gears need."""

@@ -14,6 +14,7 @@ from factory import DESIGNS, QUICK
 from sweeps import ALL
 
 from gearlink.cli.commands import check
+from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.texts.codes import key_of
 from gearlink.core.base.design import Design
 from gearlink.core.base.report import Check
@@ -298,3 +299,24 @@ def test_a_slider_crank_is_checked_without_a_limit_in_its_file(gearlink: Any, tm
     path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\noffset: 300\n")
     for command in ("check", "batch", "analyze"):
         assert gearlink(command, path).status == 1
+
+
+@pytest.mark.parametrize("name", ["standing_feed", "two_gear_standing"])
+def test_loads_of_links_that_a_synthesis_finds(gearlink: Any, designs: Path, tmp_path: Path, name: str) -> None:
+    """Those of the completed file; `check` runs them, where they were left unread once."""
+    path, whole = tmp_path / "feed.yaml", tmp_path / "whole.yaml"
+    path.write_text((designs / f"{name}.yaml").read_text() + "loads: {speed: 60, links: {output: {inertia: 0.02}}}\n")
+    assert gearlink("synth", "dwell", path, "--save", whole).status == ExitCode.OK
+    one, other = (gearlink("loads", each, "--format", "json").json for each in (path, whole))
+    assert one["quantities"] == other["quantities"]
+    commands = {finding["command"] for finding in gearlink("check", path, "-v", "--format", "json").json["findings"]}
+    assert {"synth dwell", "loads"} <= commands
+
+
+def test_loads_without_the_section_that_they_need_are_an_error(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    text = (designs / "wide_swing_slider.yaml").read_text()
+    assert "cam:" not in text
+    path = tmp_path / "swing.yaml"
+    path.write_text(text + "loads: {friction: {pins: 0.1}}\n")
+    found = gearlink("check", path, "--format", "json").json
+    assert [finding["code"] for finding in found["findings"] if finding["status"] == "error"] == ["GL113"]
