@@ -195,6 +195,20 @@ class Contact(NamedTuple):
                 break
         return self.cam.upon_joints(phi), z
 
+    def _pitch(self, jets: Jets, k: int) -> Sequence[Points]:
+        """The pitch curve at the feet [size] with as many derivatives as order k takes; from order 2 on, of which the
+        rate no longer changes, kept."""
+        if (kept := (id(self), self.size)) in jets.kept:
+            found: Sequence[Points] = jets.kept[kept]
+            return found
+        phi, _ = self._foot(jets)
+        back = (np.conj(self.cam.pitch(phi, 1)[1]) * jets.seen(self.line, 1)).real < 0.0
+        pitch = _on_side(lambda side: self.cam.pitch(phi, 3 if k > 1 else 2, side), back, jets.side)
+        scaled = [each / self.size for each in pitch]
+        if k > 1:
+            jets.kept[kept] = scaled
+        return scaled
+
     def _solved(self, jets: Jets, k: int) -> tuple[list[Reals], list[Reals]]:
         """Derivatives of D up to k and of the cam angle by the input, as many as there are motions to be derived."""
         sense, mu = self.cam.sense, -self.cam.sense
@@ -203,9 +217,7 @@ class Contact(NamedTuple):
             p, p1 = (each / self.size for each in self.cam.pitch(phi, 1))
             normal = 1j * sense * p1 / np.abs(p1)
             return [(np.conj(normal) * (z - p)).real], [phi]
-        back = (np.conj(self.cam.pitch(phi, 1)[1]) * jets.seen(self.line, 1)).real < 0.0
-        pitch = _on_side(lambda side: self.cam.pitch(phi, 3 if k == 3 else 2, side), back, jets.side)
-        p, p1, *more = (each / self.size for each in pitch)
+        p, p1, *more = self._pitch(jets, k)
         v = np.abs(p1)
         along, normal = p1 / v, 1j * sense * p1 / v
         rates = [math.factorial(j) * jets.seen(self.line, j) for j in range(1, k + 1)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -19,6 +19,7 @@ import numpy as np
 from gearlink.core.base.design_axis import Evaluated, Findings
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Check
+from gearlink.core.base.spec_paths import value_at
 from gearlink.core.machines.planar.course import AsMade, Course
 from gearlink.core.machines.planar.design import PlanarMechanism, folded
 from gearlink.core.machines.planar.dyads import Dyad, dyads
@@ -36,13 +37,15 @@ _OF_CAMS = re.compile(r"cams\.(\w+)\.(profile|roller_radius|phase|face)")
 _SIDES = ("max", "max_at", "min", "min_at", "span")
 _CERTAIN = 0.25
 """Of h, below the 1/2 of the theorem: for the way between two places of the grid."""
+_STAGES = (2, 6)
+"""Designs between the nominal one and a sample that are tried where the theorem does not say it at once."""
 _STILL = 1e-10  # of the largest slope: rounding of a dwell
 _LEVEL = 0.02  # of the largest slope: what an extreme at a joint may rise or fall beyond it, in samples
 _NEAR = 0.1
 """Of the range of a course: local extremes that may become the extreme of a sample."""
 _FAR = 0.15
 """Of the input in rad, or of the size: how far an extreme may move from that of the nominal design."""
-_STEPS, _CLOSING = 12, 6
+_STEPS, _CLOSING = 24, 6
 _SECANT = 1e-4  # of the input: first step of a secant
 _BESIDE = 1e-4  # of the input, from joints
 _REST = 1e-13
@@ -258,6 +261,63 @@ class PlanarSamples:
 
     # Samples
 
+    def made(self, columns: Mapping[str, Any]) -> tuple[Structure, System]:
+        """Structure and equations of samples, of which each number is a (N,) array."""
+        nominal, start = self.nominal, self.nominal.course.at_start
+        plays = {key.removeprefix(_PIN): values for key, values in columns.items() if key.startswith(_PIN)}
+        sizes = {key: values for key, values in columns.items() if not key.startswith(_PIN)}
+        structure = Structure(nominal.spec, plays, sizes)
+        if nominal.spec.cams:
+            vars(structure)["cams"] = nominal.structure.cams
+            system = AsMade(structure, start, _errors_of_cams(nominal, columns)).running
+        else:
+            rows = (*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts))
+            system = System(len(structure.bodies), pins_of(structure), rows)
+        vars(system)["blocks"] = self.system.blocks
+        return structure, system
+
+    def change(self, structure: Structure) -> Reals:
+        """By how much the matrices of samples may differ from the nominal one at the same place; (N,) or one number."""
+        nominal = self.nominal.structure
+        moved = [
+            np.abs(mine - other) ** 2
+            for body, points in nominal.bodies.items()
+            for mine, other in zip(structure.bodies[body].values(), points.values(), strict=True)
+        ]
+        # each point is an element of as many joints as there are at most links
+        return np.asarray(np.sqrt(sum(moved) * 2.0 * len(nominal.bodies)) / nominal.size * self.steepness)
+
+    def run_beside(self, columns: Mapping[str, Any], stages: int) -> Mask:
+        """Samples of which the theorem says so by way of designs between the nominal one and them.
+
+        Notes
+            Each stage is tested at the solution of the one before, with the matrix of its own design there.
+        """
+        count = len(next(iter(columns.values())))
+        between = [self.made(self._between(columns, k / stages)) for k in range(1, stages + 1)]
+        sure, inputs = np.ones(count, dtype=bool), np.empty(count)
+        for q, first, _, _, bend in self._grid:
+            inputs[:], y = q, np.tile(first, (count, 1))
+            for structure, system in between:
+                jets = Jets.of(y)
+                inverse = _inverse(system.matrix(jets))
+                step = -(inverse @ system.values(jets, 0, inputs)[..., None])[..., 0]
+                beta, eta = np.linalg.norm(inverse, axis=(1, 2)), np.linalg.norm(step, axis=1)
+                sure &= beta * bend * (1.0 + self.change(structure)) * eta < _CERTAIN
+                y = y + step
+                y = y - (inverse @ system.values(Jets.of(y), 0, inputs)[..., None])[..., 0]
+            if not sure.any():
+                break
+        return sure
+
+    def _between(self, columns: Mapping[str, Any], share: float) -> dict[str, Any]:
+        """Samples that are off the nominal design by a share of what these are."""
+        found = {}
+        for key, values in columns.items():
+            nominal = 0.0 if self.sets(key) else value_at(self.nominal.spec, key) or 0.0
+            found[key] = nominal + share * (values - nominal)
+        return found
+
     def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
         """The designs as manufactured; what is not certain is left to the class."""
         parts = [self._part(some, names) for some in self._parts(columns)]
@@ -409,6 +469,78 @@ def _tops(
             yield _Hump(float(q[i] + share * (q[i + 1] - q[i])), sign)
 
 
+class _ToJoint:
+    """To where the cam angle is that of a joint of the law.
+
+    `order` of the motions that a step needs; `rest` below which the last steps stay: what ends them, what is enough
+    """
+
+    order, rest, misses = 1, (1e-12, 1e-9), False
+
+    def __init__(self, row: Any, joint: float) -> None:
+        self.row, self.joint = row, joint
+
+    def step(self, _q: Reals, here: Jets) -> Reals:
+        """Newton's step."""
+        off = np.mod(self.row.angle(here, 0) - self.joint + math.pi, 2.0 * math.pi) - math.pi
+        return np.asarray(-off / self.row.angle(here, 1))
+
+
+class _BySlope:
+    """To where the derivative after that of a coordinate is 0, of which an extreme has a bend of its sense.
+
+    Parameters
+        derivative : function of jets and an order, by the input of the equations
+        order : int - of the highest derivative that a step needs
+        sign : +1 a maximum, -1 a minimum
+    """
+
+    above, rest = 2, (1e-11, 1e-7)
+
+    def __init__(self, derivative: Callable[[Jets, int], Reals], order: int, sign: float) -> None:
+        self.derivative, self.order, self.sign, self.bend = derivative, order, sign, np.zeros(0)
+
+    @property
+    def misses(self) -> Mask:
+        """Whether no extreme of that sense is near."""
+        return np.asarray(self.sign * self.bend >= 0.0)
+
+    def step(self, _q: Reals, here: Jets) -> Reals:
+        """Newton's step."""
+        self.bend = self.derivative(here, self.order)
+        return np.asarray(-self.derivative(here, self.order - 1) / self.bend)
+
+
+class _BySecants(_BySlope):
+    """The same from that derivative alone."""
+
+    above, rest = 1, (1e-8, 1e-7)
+    last: tuple[Reals, Reals] | None = None
+
+    def step(self, q: Reals, here: Jets) -> Reals:
+        """The step of the secant through the last two places; the first is small."""
+        slope, last = self.derivative(here, self.order), self.last
+        self.last = q, slope
+        if last is None:
+            self.bend = np.zeros_like(slope)
+            return np.full_like(q, _SECANT)
+        apart = q - last[0]
+        self.bend = np.where(np.abs(apart) > 1e-9, (slope - last[1]) / apart, self.bend)
+        step: Reals = -slope / self.bend
+        return step
+
+
+def _inverse(matrices: Reals) -> Reals:
+    """Inverses, NaN of what has none."""
+    try:
+        return np.asarray(np.linalg.inv(matrices), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        whole = np.linalg.det(matrices) != 0.0
+        found: Reals = np.full_like(matrices, math.nan)
+        found[whole] = np.linalg.inv(matrices[whole])
+        return found
+
+
 class _Many:
     """Some samples side by side.
 
@@ -418,36 +550,19 @@ class _Many:
     """
 
     def __init__(self, samples: PlanarSamples, columns: Mapping[str, Any]) -> None:
-        nominal = samples.nominal
         self.samples, self.count = samples, len(next(iter(columns.values())))
-        plays = {key.removeprefix(_PIN): values for key, values in columns.items() if key.startswith(_PIN)}
-        sizes = {key: values for key, values in columns.items() if not key.startswith(_PIN)}
-        structure = Structure(nominal.spec, plays, sizes)
-        self.design = PlanarMechanism(nominal.spec)
-        vars(self.design)["structure"] = structure
-        start = nominal.course.at_start
-        if nominal.spec.cams:
-            vars(structure)["cams"] = nominal.structure.cams
-            self.system = AsMade(structure, start, _errors_of_cams(nominal, columns)).running
-        else:
-            rows = (*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts))
-            self.system = System(len(structure.bodies), pins_of(structure), rows)
-        vars(self.system)["blocks"] = samples.system.blocks
+        self.design = PlanarMechanism(samples.nominal.spec)
+        vars(self.design)["structure"], self.system = samples.made(columns)
         self.unsure: Mask = self._uncertain()
+        for stages in _STAGES:
+            if len(some := np.flatnonzero(self.unsure)):
+                self.unsure[some] = ~samples.run_beside({key: values[some] for key, values in columns.items()}, stages)
         q, first = samples._grid[0][:2]
         self.gap: Reals = self._gaps(self.closed(q, np.tile(first, (self.count, 1)))[0], np.full(self.count, q))
 
     def _uncertain(self) -> Mask:
         """Samples of which the theorem does not say that they run beside the nominal design."""
-        nominal = self.samples.nominal.structure
-        moved = [
-            np.abs(mine - other) ** 2
-            for body, points in nominal.bodies.items()
-            for mine, other in zip(self.design.structure.bodies[body].values(), points.values(), strict=True)
-        ]
-        # each point is an element of as many joints as there are at most links
-        change = np.sqrt(sum(moved) * 2.0 * len(nominal.bodies) + np.zeros(self.count)) / nominal.size
-        change = change * self.samples.steepness
+        change = self.samples.change(self.design.structure) + np.zeros(self.count)
         uncertain = np.zeros(self.count, dtype=bool)
         for q, y, inverse, beta, k in self.samples._grid:
             gaps = self.system.values(Jets.of(np.broadcast_to(y, (self.count, y.size))), 0, np.full(self.count, q))
@@ -494,36 +609,33 @@ class _Many:
     def _extreme(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
         """Values at a local extreme, and its places."""
         if (*key, hump) not in self._found:
-            sought = self._at_joint if hump.cam else self._between if self.samples.nominal.spec.cams else self._sought
-            self._found[(*key, hump)] = sought(key, hump)
+            self._found[(*key, hump)] = self._sought(key, hump)
         return self._found[(*key, hump)]
 
     def _sought(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
-        course, (name, order) = self.samples.nominal.course, key
-        jets = course.jets(np.array([hump.place]), 0)
-        first = joined(jets.x[0], jets.t[0])[0]
-        q, y = np.full(self.count, float(course.walked(np.array([hump.place]))[0])), np.tile(first, (self.count, 1))
-        of, start, far = self._numbers[name], q.copy(), ~self.unsure
-        for _ in range(1 if hump.end else _STEPS):
-            y, open_ones = self.closed(q, y)
-            if hump.end:
-                far = open_ones
-                break
-            here = self.system.onward(Jets.of(y), q, order + 2)
-            slope, bend = (of(here, order + k) * math.factorial(order + k) for k in (1, 2))
+        """Each step from the nominal place on closes the samples, and goes on along their motions."""
+        (q, y), off = self._first(hump), np.zeros(self.count, dtype=bool)
+        if hump.end:
+            return self._there(key, q, y, off)
+        start, way = q.copy(), self._way(key, hump)
+        for _ in range(_STEPS):
+            y, _open = self.closed(q, y)
+            here = self.system.onward(Jets.of(y), q, way.order)
             with np.errstate(all="ignore"):
-                step = -slope / bend
+                step = way.step(q, here)
             step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
-            q = q + step
-            y = y + joined(here.x[1], here.t[1]) * step[:, None]
-            far = open_ones | (np.abs(q - start) > _FAR) | (np.abs(step) > 1e-7) | (hump.sign * bend >= 0.0)
-            if not ((np.abs(step) > 1e-11) & ~self.unsure).any():
+            q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
+            off = (np.abs(q - start) > _FAR) | (np.abs(step) > way.rest[1]) | way.misses
+            if not ((np.abs(step) > way.rest[0]) & ~self.unsure).any():
                 break
-        y, open_ones = self.closed(q, y)
-        here = self.system.onward(Jets.of(y), q, order)
-        self.gap = np.maximum(self.gap, self._gaps(y, q))
-        self.unsure = self.unsure | far | open_ones
-        return course.derivatives(of, here, order)[order], course.unwalked(q)
+        return self._there(key, q, y, off, hump.side)
+
+    def _way(self, key: tuple[str, int], hump: _Hump) -> _ToJoint | _BySlope:
+        """Laws have no derivative after the third: with cams by secants."""
+        if hump.cam:
+            return _ToJoint(self._cam_rows[hump.cam], hump.joint)
+        (name, order), kind = key, _BySecants if self.samples.nominal.spec.cams else _BySlope
+        return kind(lambda here, k: self._numbers[name](here, k) * math.factorial(k), order + kind.above, hump.sign)
 
     def _first(self, hump: _Hump) -> tuple[Reals, Reals]:
         """The place of the nominal design as the equations have it, and its unknowns, for each sample."""
@@ -542,23 +654,6 @@ class _Many:
         self.unsure = self.unsure | off | open_ones
         return course.derivatives(self._numbers[name], here, order)[order], course.unwalked(q)
 
-    def _at_joint(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
-        """Where the cam angle is that of a joint of the law."""
-        q, y = self._first(hump)
-        start, step = q.copy(), np.full(self.count, math.inf)
-        row = self._cam_rows[hump.cam]
-        for _ in range(_STEPS):
-            y, _open = self.closed(q, y)
-            here = self.system.onward(Jets.of(y), q, 1)
-            off = np.mod(row.angle(here, 0) - hump.joint + math.pi, 2.0 * math.pi) - math.pi
-            with np.errstate(all="ignore"):
-                step = -off / row.angle(here, 1)
-            step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
-            q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
-            if not ((np.abs(step) > 1e-12) & ~self.unsure).any():
-                break
-        return self._there(key, q, y, (np.abs(q - start) > _FAR) | (np.abs(step) > 1e-9), hump.side)
-
     @cached_property
     def _cam_rows(self) -> dict[str, Any]:
         """By cam what tells its angle."""
@@ -567,29 +662,6 @@ class _Many:
         for name, row in zip(names, self.system.rows[-len(names) :], strict=True):
             found[name] = row.contact if row.contact is not None else _AngleOfFace(row.lift)
         return found
-
-    def _between(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
-        """Where the next derivative is 0, by secants: laws have no derivative after the third."""
-        course, (name, order) = self.samples.nominal.course, key
-        (q, y), of = self._first(hump), self._numbers[name]
-        if hump.end:
-            return self._there(key, q, y, np.zeros(self.count, dtype=bool))
-        start, before, slope_before = q.copy(), q - _SECANT, np.zeros(self.count)
-        step, bend = np.full(self.count, _SECANT), np.zeros(self.count)
-        for round_ in range(2 * _STEPS):
-            y, _open = self.closed(q, y)
-            here = self.system.onward(Jets.of(y), q, order + 1)
-            slope = course.derivatives(of, here, order + 1)[order + 1]
-            with np.errstate(all="ignore"):
-                bend = np.where(np.abs(q - before) > 1e-9, (slope - slope_before) / (q - before), bend)
-                step = np.full(self.count, _SECANT) if round_ == 0 else -slope / bend
-            step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
-            before, slope_before = q, slope
-            q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
-            if not ((np.abs(step) > 1e-8) & ~self.unsure).any():
-                break
-        off = (np.abs(q - start) > _FAR) | (np.abs(step) > 1e-7) | (hump.sign * bend >= 0.0)
-        return self._there(key, q, y, off)
 
     def extreme(self, key: tuple[str, int], sign: float) -> tuple[Reals, Reals]:
         """Maximum (sign 1) or minimum values, and their places in the period or range."""

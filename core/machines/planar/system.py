@@ -53,7 +53,7 @@ class Jets:
     t: list[Reals]
     e: list[Points] = field(default_factory=list)
     side: int = 1
-    kept: dict[int, Any] = field(default_factory=dict)
+    kept: dict[Any, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         while len(self.e) < len(self.t):

@@ -107,18 +107,18 @@ def evaluated(made: Problem, columns: Columns) -> Evaluated:
         found = made.axis.evaluate(columns, made.quick_names)
         if found.unsure is None or not found.unsure.any():
             return found
-        few = _one_by_one(made, {key: value[found.unsure] for key, value in columns.items()})
+        few = _one_by_one(made, {key: value[found.unsure] for key, value in columns.items()}, made.quick_names)
         return put_in(found, found.unsure, few)
-    return _one_by_one(made, columns)
+    return _one_by_one(made, columns, made.names)
 
 
-def _one_by_one(made: Problem, columns: Columns) -> Evaluated:
+def _one_by_one(made: Problem, columns: Columns, names: Sequence[str]) -> Evaluated:
     """Designs of given sizes, each by its class; what that seeks for all of them at once is sought first."""
     designs = [_tried(made, row) for row in rows_of(columns)]
     there = [design for design in designs if not isinstance(design, Single)]
     if there:
-        type(there[0]).find_together(there, made.names)
-    return as_arrays([_single(made, design) for design in designs], made.names, list(made.base.codes))
+        type(there[0]).find_together(there, names)
+    return as_arrays([_single(made, design, names) for design in designs], names, list(made.base.codes))
 
 
 def rows_of(columns: Columns) -> Iterator[dict[str, Any]]:
@@ -148,13 +148,13 @@ def _tried(made: Problem, row: Mapping[str, Any]) -> Any:
         return Single({}, (), error.key or "kind", str(error))
 
 
-def _single(made: Problem, design: Any) -> Single:
+def _single(made: Problem, design: Any, names: Sequence[str]) -> Single:
     if isinstance(design, Single):
         return design
     try:
         own = _extra(made)
-        values = made.base.values(design, [name for name in made.names if name not in own])
-        values |= {name: in_unit(design.raw(name), term(name).unit) for name in made.names if name in own}
+        values = made.base.values(design, [name for name in names if name not in own])
+        values |= {name: in_unit(design.raw(name), term(name).unit) for name in names if name in own}
         return Single(values, tuple(findings_of(made.base, design, list(made.base.codes))))
     except (Refused, NoSolution) as error:
         return Single({}, (), error.key or "kind", str(error))
