@@ -113,6 +113,7 @@ class PlanarSamples:
 
     extra: tuple[str, ...] = ()
     reference: float | None = None
+    course_units: tuple[str, ...] = ("deg", "mm")
 
     @property
     def samples(self) -> int:
@@ -369,8 +370,6 @@ class PlanarSamples:
         """Findings of the cams as cut, which no sample changes."""
         names = ("shaft-clearance", "pressure-angle", "cam-undercut", "acceleration-step")
         return [check for name in names for check in self.nominal.check(name)]
-
-    course_units = ("deg", "mm")
 
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
         """By how much the first output, a link or a slide, is off that of the nominal design [rad or mm]; (K, N), NaN

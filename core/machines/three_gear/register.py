@@ -39,6 +39,7 @@ from gearlink.core.parts.linkages.standstills import zeros_over_turn
 from gearlink.core.studies.clearance import Clearance, collision_judged, gaps, shaft_judged
 from gearlink.core.studies.register import RegisterDesign, no_such_place, turning
 from gearlink.core.studies.tolerance.budget import Contribution
+from gearlink.core.studies.tolerance.sampling import ARRAY_SAMPLES
 from gearlink.core.studies.tolerance.sources import GearOfSource, Parts
 
 if TYPE_CHECKING:
@@ -84,6 +85,8 @@ class ThreeGearSamples:
     """
 
     extra = (_SWING,)
+    samples = ARRAY_SAMPLES
+    course_units = ("deg",)
 
     def __init__(self, nominal: ThreeGearFourBar) -> None:
         if nominal.spec.gears.helix_angle:

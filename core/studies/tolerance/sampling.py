@@ -16,6 +16,8 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.quasi_random import Sobol
 
 REPLICATIONS = 16
+ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
+"""By default, of array forms and of designs that are computed one by one."""
 _CONFIDENCE = 0.975  # two-sided 95 %
 
 

@@ -28,10 +28,10 @@ from gearlink.core.studies.explore.requirements import (
 )
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.correlation import coordinate_root, together
+from gearlink.core.studies.tolerance.sampling import SCALAR_SAMPLES
 from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
 from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
 
-ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
 MOST_WITH_INDICES = 32
 _STUDIES = ("tolerance", "register")
 _ABOUT = (*_STUDIES, "loads")  # commands about a design, and their sections: no sample is for them
@@ -221,8 +221,8 @@ class Problem:
     @property
     def samples(self) -> int:
         """Samples that are asked for."""
-        usual: int = getattr(self.axis, "samples", ARRAY_SAMPLES)  # less of an array form that takes longer
-        return self.section.samples or (usual if self.is_quick else SCALAR_SAMPLES)
+        usual = self.axis.samples if self.axis is not None and self.is_quick else SCALAR_SAMPLES
+        return self.section.samples or usual
 
     # Random numbers to sizes
 
@@ -325,11 +325,17 @@ class ToleranceAxis(Protocol):
 
     parts : centre distances, pins and gears that may scatter beside the keys of the file; extra : quantities that only
     samples have; reference : input angle at which designs as made and nominal design are set to agree [deg], None: as
-    they are
+    they are; course_units : of an output that `course` gives, "deg" and perhaps "mm"
     """
 
     parts: Parts
     extra: tuple[str, ...]
+    course_units: tuple[str, ...]
+
+    @property
+    def samples(self) -> int:
+        """Samples by default: `ARRAY_SAMPLES`, less of a form that takes longer."""
+        ...
 
     @property
     def reference(self) -> float | None:

@@ -30,7 +30,7 @@ from gearlink.core.studies.tolerance.sampling import (
     rounded_up,
     seen,
 )
-from gearlink.core.studies.tolerance_study.problem import ARRAY_SAMPLES, Problem, problem
+from gearlink.core.studies.tolerance_study.problem import Problem, problem
 
 Columns = Mapping[str, Reals | Points]
 _BLOCK = 8192  # of the array form; of one by one, from `at_once` up to what takes so many seconds
@@ -283,12 +283,13 @@ def deviations(made: Problem, number: int) -> list[Reals]:
     nominal = made.nominal.table(table, samples=_PLACES)
     places = np.asarray(nominal.data[0], dtype=float)
     units = [nominal.units[nominal.columns.index(name)] for name in names]
-    known = getattr(made.axis, "course_units", ("deg",))
-    over_arrays = made.is_quick and made.axis is not None and len(units) == 1 and units[0] in known
-    count = rounded_up(getattr(made.axis, "samples", ARRAY_SAMPLES) // 8 if over_arrays else _SCALAR_SAMPLES)
+    axis = made.axis if made.is_quick else None
+    if axis is not None and not (len(units) == 1 and units[0] in axis.course_units):
+        axis = None
+    count = rounded_up(_SCALAR_SAMPLES if axis is None else axis.samples // 8)
     columns = made.sizes(replication(made.coordinates, count, made.section.seed, number))
-    if over_arrays and made.axis is not None:
-        off = made.axis.course(columns, np.radians(places))
+    if axis is not None:
+        off = axis.course(columns, np.radians(places))
         return [np.degrees(off) if units == ["deg"] else off]
     tables = [_table(made, row, table, len(places)) for row in rows_of(columns)]
     found = []
