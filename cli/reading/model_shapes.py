@@ -113,6 +113,10 @@ def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]
 
 def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The unit of a number; empty where it has none, or one that another key names."""
+    if path and isinstance(path[-1], int):
+        around = (each for _, found in shapes_at(model, path[:-1], data)[0] for each in found)
+        if own := next((each.unit(path[-1]) for each in around if isinstance(each, Entries)), ""):
+            return own
     said = [each for _, found in shapes_at(model, path, data)[0] for each in found]
     units = {each.name for each in said if isinstance(each, _Unit)}
     unit = units.pop() if len(units) == 1 else ""
@@ -152,7 +156,8 @@ def list_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[int, str,
         for each in constraints:
             if isinstance(each, Entries):
                 unit = unit_at(model, (*path, 0), data)
-                names, example = each.names + (f" in {unit}" if unit not in ("", "1", "teeth") else ""), each.example
+                of_all = "" if each.units or unit in ("", "1", "teeth") else f" in {unit}"
+                names, example = each.names + of_all, each.example
     return length, names, example
 
 

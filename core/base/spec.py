@@ -35,11 +35,17 @@ class Entries:
     Parameters
         names : str - "[x, y]"
         example : str - "[0, -9.81]"; empty: none
+        units : (str, ...) - of each entry, "" where it is that of the list; empty: of all
     """
 
-    def __init__(self, names: str, example: str = "") -> None:
+    def __init__(self, names: str, example: str = "", units: tuple[str, ...] = ()) -> None:
         self.names = names
         self.example = example
+        self.units = units
+
+    def unit(self, place: int) -> str:
+        """The unit of an entry where it has its own."""
+        return self.units[place] if place < len(self.units) else ""
 
 
 class OfFollower:

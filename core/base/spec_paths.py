@@ -108,19 +108,38 @@ def step_of(spec: Any, path: str) -> float:
 
 def unit_at(spec: Any, path: str) -> str:
     """The unit of the key that a path leads to, "" where it says none."""
+    from gearlink.core.base.spec import Entries, OfFollower
+
     head, _, last = path.rpartition(".")
     section = value_at(spec, head) if head else spec
-    field = getattr(type(section), "model_fields", {}).get(_name_of(section, last.partition("[")[0]))
-    return "" if field is None else next(_units(field), "") or next(_units(field.annotation), "")
+    name, *places = _steps(last)
+    field = getattr(type(section), "model_fields", {}).get(_name_of(section, str(name)))
+    if field is None:
+        return ""
+    said = [*_said(field), *_said(field.annotation)]
+    entries = [each.unit(int(places[-1])) for each in said if places and isinstance(each, Entries)]
+    turning = [each.turning for each in said if isinstance(each, OfFollower) and _turns(spec, path)]
+    return next(filter(None, [*entries, *turning]), "") or next(_units(said), "")
 
 
-def _units(part: Any) -> Iterator[str]:
-    """Units that a field or a type states, the outermost first."""
-    extra = getattr(part, "json_schema_extra", None)
-    if isinstance(extra, dict) and "unit" in extra:
-        yield str(extra["unit"])
-    for inner in (*getattr(part, "__metadata__", ()), *getattr(part, "__args__", ())):
-        yield from _units(inner)
+def _turns(spec: Any, path: str) -> bool:
+    """Whether the follower of the nearest section around a path oscillates."""
+    around = [spec, *(value_at(spec, path[: dot.start()]) for dot in re.finditer(r"\.", path))]
+    followers = [getattr(section, "follower", None) for section in around]
+    found = next((each for each in reversed(followers) if each is not None), None)
+    return str(getattr(found, "type", "")).startswith("oscillating")
+
+
+def _units(said: Iterable[Any]) -> Iterator[str]:
+    extras = (getattr(each, "json_schema_extra", None) for each in said)
+    return (str(extra["unit"]) for extra in extras if isinstance(extra, dict) and "unit" in extra)
+
+
+def _said(part: Any) -> Iterator[Any]:
+    """What a field or a type says of itself, the outermost first."""
+    yield part
+    for inner in (*getattr(part, "metadata", ()), *getattr(part, "__metadata__", ()), *getattr(part, "__args__", ())):
+        yield from _said(inner)
 
 
 def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:

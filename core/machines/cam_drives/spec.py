@@ -29,9 +29,13 @@ from gearlink.core.parts.gears.keys.pair import PairKeys
 
 SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 Number = Annotated[float, Field(json_schema_extra={"unit": "1"})]
-Harmonic = Annotated[list[Number], Field(min_length=3, max_length=3), Entries("[n, cos, sin]", "[1, 20, 0]")]
+Harmonic = Annotated[
+    list[Number], Field(min_length=3, max_length=3), Entries("[n, cos, sin]", "[1, 20, 0]", ("1", "mm", "mm"))
+]
 Waves = Annotated[list[Harmonic], Field(min_length=1, max_length=60)]
-PathPoint = Annotated[list[SignedLength], Field(min_length=3, max_length=3), Entries("[angle, x, y]", "[90, 20, 5]")]
+PathPoint = Annotated[
+    list[SignedLength], Field(min_length=3, max_length=3), Entries("[angle, x, y]", "[90, 20, 5]", ("deg",))
+]
 
 
 class CamDriveLimits(DrawingLimits, GearLimits, LoadLimits):

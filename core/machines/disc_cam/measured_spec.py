@@ -33,7 +33,7 @@ from gearlink.core.machines.disc_cam.spec import (
 from gearlink.core.machines.disc_cam.spec import Inertia as FollowerInertia
 
 ProfilePoint = Annotated[
-    list[SignedLength], Field(min_length=2, max_length=2), Entries("[angle, radius]", "[30, 52.4]")
+    list[SignedLength], Field(min_length=2, max_length=2), Entries("[angle, radius]", "[30, 52.4]", ("deg",))
 ]
 Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[130, 0]")]
 MOST_HARMONICS = 60

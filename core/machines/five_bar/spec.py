@@ -158,7 +158,13 @@ class FiveBarTarget(Spec):
     )
     poses: (
         Annotated[
-            list[Annotated[list[SignedLength], Field(min_length=3, max_length=3), Entries("[x, y, angle]")]],
+            list[
+                Annotated[
+                    list[SignedLength],
+                    Field(min_length=3, max_length=3),
+                    Entries("[x, y, angle]", units=("", "", "deg")),
+                ]
+            ],
             Field(min_length=2, max_length=12),
         ]
         | None

@@ -13,7 +13,7 @@ from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.spec import SegmentLaw
 
 Lift = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"}), OfFollower("deg")]
-Row = Annotated[list[Lift], Field(min_length=2, max_length=2), Entries("[cam angle, lift]")]
+Row = Annotated[list[Lift], Field(min_length=2, max_length=2), Entries("[cam angle, lift]", "[50, 2]", ("deg",))]
 SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 FEWEST_POINTS = 4
 

@@ -12,9 +12,9 @@ from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import at_key
-from gearlink.core.base.spec import Spec
+from gearlink.core.base.spec import Entries, Spec
 from gearlink.core.base.wording import unlike
-from gearlink.core.parts.cams.motion_spec import MotionTable, Segment
+from gearlink.core.parts.cams.motion_spec import FEWEST_POINTS, Segment
 from gearlink.core.parts.cams.spec import SegmentLaw
 
 if TYPE_CHECKING:
@@ -24,6 +24,19 @@ if TYPE_CHECKING:
 TURN = 2.0 * math.pi
 _FIT = 1e-9
 OutputAngle = Annotated[float, Field(ge=-36_000, le=36_000, json_schema_extra={"unit": "deg"})]
+
+
+OutputRow = Annotated[
+    list[OutputAngle], Field(min_length=2, max_length=2), Entries("[input angle, output angle]", "[90, 20]")
+]
+
+
+class OutputTable(Spec):
+    """Outputs through which the quintic spline is laid that goes on with each revolution."""
+
+    table: Annotated[list[OutputRow], Field(min_length=FEWEST_POINTS, max_length=2000)] = Field(
+        description="pairs [input angle, output angle], the input ascending from 0 to 360"
+    )
 
 
 class OutputSegment(Spec):
@@ -38,9 +51,9 @@ class OutputSegment(Spec):
     law: SegmentLaw | None = Field(None, description="law of motion; default: modified-sine, or a dwell")
 
 
-def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegment] | MotionTable:
+def _whole_turns(motion: list[OutputSegment] | OutputTable) -> list[OutputSegment] | OutputTable:
     """Refuse a motion that does not take a revolution of the input, or leaves the output between whole revolutions."""
-    if isinstance(motion, MotionTable):
+    if isinstance(motion, OutputTable):
         ends, gained = [row[0] for row in motion.table], motion.table[-1][1] - motion.table[0][1]
         first = ends[0]
     else:
@@ -56,7 +69,7 @@ def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegmen
 
 
 OutputLaw = Annotated[
-    Annotated[list[OutputSegment], Field(min_length=1, max_length=200)] | MotionTable, AfterValidator(_whole_turns)
+    Annotated[list[OutputSegment], Field(min_length=1, max_length=200)] | OutputTable, AfterValidator(_whole_turns)
 ]
 
 
@@ -71,16 +84,16 @@ class OutputMotion:
         given : the key of the file
     """
 
-    def __init__(self, given: list[OutputSegment] | MotionTable) -> None:
+    def __init__(self, given: list[OutputSegment] | OutputTable) -> None:
         self.even = 0.0
         self._base = self._made(given)
         start, end = self._base.pieces[0].low, self._base.pieces[-1].high
         self.gained = end - start + TURN * self.even
 
-    def _made(self, given: list[OutputSegment] | MotionTable) -> FollowerMotion:
+    def _made(self, given: list[OutputSegment] | OutputTable) -> FollowerMotion:
         from gearlink.core.parts.cams.follower_motion import motion_of, spline
 
-        if isinstance(given, MotionTable):
+        if isinstance(given, OutputTable):
             rows = [(math.radians(angle), math.radians(output)) for angle, output in given.table]
             self.even = (rows[-1][1] - rows[0][1]) / TURN
             return spline([angle for angle, _ in rows], [output - self.even * angle for angle, output in rows])

@@ -21,7 +21,7 @@ Gravity = Annotated[float, Field(ge=-1e3, le=1e3, json_schema_extra={"unit": "m/
 Speed = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1/min"})]
 Number = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "1"})]
 Coefficient = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
-Pair = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[angle, value]")]
+Pair = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[angle, value]", units=("deg",))]
 AboveZero = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N/mm"})]
 
 

@@ -110,6 +110,25 @@ def test_units_of_a_cam_go_with_its_follower() -> None:
     ]  # fmt: skip
 
 
+TABLE = [["0 deg", "0 mm"], ["0.5 rad", "1 in"], [180, 20], [360, "0 mm"]]
+
+
+def test_cells_of_a_table_have_the_unit_of_their_column() -> None:
+    text = "motion: {table: TABLE}\nfollower: {type: TYPE}\ncam: {prime_radius: 60}".replace("TABLE", str(TABLE))
+    made = spec(text.replace("TYPE", "translating-roller, roller_radius: 9"), "disc-cam")
+    assert made.motion.table[1] == pytest.approx([28.64788975654116, 25.4], rel=1e-15)
+    with pytest.raises(DesignFileError) as refused:
+        spec(text.replace("TYPE", "oscillating-roller, roller_radius: 9, arm: 90, center_distance: 120"), "disc-cam")
+    assert [found.message for found in refused.value.diagnostics] == [
+        f"{unit} is a length, motion.table[{row}][1] is in deg" for row, unit in ((0, "mm"), (1, "in"), (3, "mm"))
+    ]
+    turned = spec(
+        "gears: {module: 2, sun: 20, planet: 20}\nlever: {length: 20, angle: 90}\nroller_radius: 5\n"
+        "motion: {table: [[0, 0], [1 rad, 0.1 rad], [200, 8], [360, 0]]}", "cam-gear"
+    )  # fmt: skip
+    assert turned.motion.table[1] == pytest.approx([57.29577951308232, 5.729577951308232], rel=1e-15)
+
+
 def test_loads_and_set_take_units() -> None:
     loaded = parse(HEAD + b"stroke: 310\nrod: 520\nloads: {speed: 2 Hz, links: {slider: {mass: 10 lb}}}", "x.yaml",
                    overrides=["stroke=0.31 m"])  # fmt: skip

@@ -11,8 +11,10 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.many_designs import Unlike, column, hand_out, together
+from gearlink.core.base.spec_paths import unit_at
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.studies.explore.base import Base
+from gearlink.core.studies.study.faults import WrongStudy
 from gearlink.core.studies.tolerance_study.problem import problem
 from gearlink.core.studies.tolerance_study.samples import evaluated
 
@@ -162,3 +164,16 @@ def test_results_are_handed_out_row_by_row() -> None:
     owners = [Holder(None), Holder(None)]
     hand_out(Holder((np.array([[1.0], [2.0]]), 7.0, None)), owners, "value")
     assert [owner.value for owner in owners] == [(1.0, 7.0, None), (2.0, 7.0, None)]
+
+
+def test_the_lift_of_a_rocker_has_no_class_and_that_of_a_slide_has() -> None:
+    """Its width is that of a length."""
+    section = {"sources": {"motion[0].lift": {"class": "js7"}}}
+    with pytest.raises(WrongStudy, match=r"motion\[0\].lift is in deg"):
+        _ = problem(factory.design(_file("rocker", tolerance=section)).spec).sources
+    (source,) = problem(factory.design(_file("groove", tolerance=section)).spec).sources
+    assert source.law.upper == pytest.approx(0.009, rel=1e-12)  # js7 of 12 mm
+    assert [unit_at(factory.design(_file(name)).spec, "spring.rate") for name in ("flat", "rocker")] == [
+        "N/mm",
+        "N m/rad",
+    ]
