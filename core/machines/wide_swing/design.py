@@ -10,20 +10,40 @@ from operator import attrgetter
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
+
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
-from gearlink.core.base.report import Table
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.machines.wide_swing import bodies, checks, remedies
-from gearlink.core.machines.wide_swing.motion import Motion
-from gearlink.core.machines.wide_swing.sizing import QUANTITIES, DeviceSize, device_table, names
+from gearlink.core.base.wording import short
+from gearlink.core.machines.wide_swing import bodies, remedies
+from gearlink.core.machines.wide_swing.codes import (
+    BALANCING,
+    CLOSED_CONTOUR,
+    CYCLE_ANGLES,
+    DEVICE_PRESSURE,
+    FORCE_CLOSURE,
+    FORCE_RESERVE,
+    PROFILE_EXISTS,
+    PROFILE_PLANES,
+    SIDE_CHANGE,
+    SWING_RANGE,
+    TRANSITION_ZONE,
+    TURNABILITY,
+)
+from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
+from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, QUANTITIES, DeviceSize, device_table, names
 from gearlink.core.numerics.motion_extremes import names as extreme_names
+from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CAM_UNDERCUT, PRESSURE_ANGLE
+from gearlink.core.parts.linkages.checks import transmission_check
+from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Check, Quantity
+    from gearlink.core.base.report import Quantity
     from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam
-    from gearlink.core.machines.wide_swing.cycle import WholeCycle
+    from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
     from gearlink.core.machines.wide_swing.law import LegacyLaw, MarchedLaw
     from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.machines.wide_swing.parallel import ParallelShafts
@@ -34,6 +54,175 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.numerics.periodic import CosineSeries
+
+
+_ROUNDING = 1e-9
+_UNGUIDED = 0.1
+"""Half-width of the contact change, as a share of the stroke, that no limit allows without a word: twice the usual."""
+
+MOST_RISE = 0.05
+"""Rise of a cylinder's force over its stroke up to which the law of constant force is taken."""
+
+# Device and stroke
+
+
+def _room_for_steel(design: WideSwingDesign, otherwise: str) -> Iterator[Check]:
+    """GL504 of a spring of which the file gives no length, or a stretch that no steel bears: whether any spring of
+    steel finds room between the pins."""
+    ratio, least = design.motion.device.pivot_ratio, design.motion.least_ratio_of_steel
+    if ratio < least:
+        what, aside = "pivot ratio for a steel spring", f"stretch of {MOST_STRETCH:g} times its closed length"
+        fix = f"increase unloader.pivot_ratio to at least {safely_above(least)}, or {otherwise}"
+        yield TURNABILITY.check("warn", what, ratio, least, aside=aside, fix=fix)
+
+
+_USUAL_SWING = 300.0
+_STEEPEST = 60.0
+
+
+_TRANSMISSION = {
+    "drive": ("minimum transmission angle of the drive", "shorten drive.crank"),
+    "slider.rod": ("minimum angle of the slider's rod to the normal of its slide line", "lengthen slider.rod"),
+}
+"""What a message calls an angle, and what raises it."""
+
+
+def _more_force(design: WideSwingDesign) -> str:
+    """The reserve that holds the roller with a tenth of speed as margin, or the strength of a given device."""
+    unloader, need, size = design.spec.unloader, design.unloading.need, design.unloading.size
+    safe = remedies.reserve(unloader.residual, 0.1, need)
+    key = {"pneumatic": "force", "spring": "rate", "gravity": "mass"}[unloader.type]
+    if getattr(unloader, key) is None:
+        return f"raise unloader.reserve to {safely_above(safe)} (10 % speed margin)"
+    if unloader.type == "gravity":
+        if safe >= design.motion.most_pendulum_reserve:
+            return "move the mass closer to the axis, or lower the speed"
+        return f"raise unloader.mass to {safely_above(design.motion.pendulum_mass(1.0 + safe))} (10 % speed margin)"
+    return f"raise unloader.{key} to {safely_above(size.balancing * (1.0 + safe))} (10 % speed margin)"
+
+
+# Cams
+
+
+def _judged(design: WideSwingDesign) -> list[tuple[str, AnyCam]]:
+    """The cams with a profile."""
+    return [(words, cam) for words, cam in design.cams.items() if cam is not design.cam or design.has_profile]
+
+
+def _pressure_remedy(design: WideSwingDesign) -> str:
+    if design.spec.cycle is not None:
+        return "give that stroke a larger angle in cycle"
+    return f"change {'cycle_angle' if design.spec.drive is None else 'drive.crank'} or swing"
+
+
+def _covered(cam: AnyCam, words: str) -> Check:
+    what = f"the roller (radius {short(cam.roller_radius)} mm) covers the whole profile of the {words}"
+    return CAM_UNDERCUT.check("fail", what, None, 1.0, fix="take a smaller cam.roller_radius")
+
+
+def _left_out(cam: AnyCam) -> str:
+    """The parts of the stroke in which the roller does not touch the profile."""
+    (first, _), (_, last) = cam.contact
+    parts = [
+        f"{name} {short(part, 3)} of the stroke"
+        for name, part in (("first", first), ("last", 1.0 - last))
+        if part > 0.0
+    ]
+    return " and ".join(("outside the transition zone", *parts))
+
+
+def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]:
+    """The source's own criterion of the internal profile: a warning, since its radius is an estimate."""
+    estimate = design.middle_radius_estimate
+    if roller >= estimate:
+        what, shown = "roller radius, internal profile", Shown(roller, estimate, "mm", "<=")
+        aside = "the source's estimate of the curvature radius at mid-swing"
+        fix = f"take a roller of at most {safely_below(0.999 * estimate)} mm"
+        yield CAM_UNDERCUT.check("warn", what, roller / estimate, 1.0, shown=shown, aside=aside, fix=fix)
+
+
+def _shaft_remedy(design: WideSwingDesign) -> str:
+    """A smaller roller where its profile does not bear it either, else a larger distance first."""
+    roller, least = remedies.roller_of_profile(design), safely_above(remedies.center_distance(design))
+    if roller is not None:
+        return f"take a roller of at most {safely_below(roller)} mm"
+    return f"set cam.center_distance to at least {least} mm"
+
+
+def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
+    """The cam's arc about the dwells may reach over the rocker's axis."""
+    from gearlink.core.parts.cams.checks import over_axis_check
+
+    place, roller = design.section.center_distance, design.section.roller_radius
+    for words, cam in design.cams.items():
+        sense = -1.0 if design.spec.layout == "twin-rocker" and cam is design.cam else 1.0
+        room = sense * (place - cam.end_radius) + roller
+        if design.spec.drive is not None and design.has_profile:
+            # Both stop there, so that the normal of the pitch curve does not point to the cam's axis.
+            (first, _), (_, last) = cam.contact
+            room = place - float(np.abs(cam.points(np.array([first, last])).profile).max())
+        advice = "overhang the rocker next to the cam, or reduce the swing"
+        rule, axis = SHAFT_CLEARANCE, "the rocker's axis"
+        at = "the ends of the stroke"
+        yield from over_axis_check(rule, words, room, roller, axis, advice, at=at)
+
+
+# Checks of a whole cycle: the joints of its contours, the roller in the free sectors, two profiles on one body
+
+
+_CUT = 1e-7
+"""Cut, in roller radii, that rounding and the search of the nearest place leave of none."""
+
+
+def _angles_of_cycle(design: WideSwingDesign) -> Iterator[Check]:
+    """GL510 of a whole cycle, whose angles fill the turn: rests of no length, and the stroke that sizes the device."""
+    section = design.spec.cycle
+    assert section is not None, "asked for where there is a cycle"
+    working, far, back, near = section.lengths
+    aside = f"strokes {short(working)} and {short(back)} deg, dwells {short(far)} and {short(near)} deg"
+    for name, rest in (("far_dwell", far), ("near_dwell", near)):
+        if rest == 0.0:
+            what, fix = (
+                f"no {name.replace('_', ' ')}: two concave flanks of each cam meet in an edge",
+                f"set cycle.{name} above 0",
+            )
+            yield CYCLE_ANGLES.check("warn", what, rest, 0.0, "deg", shown=NO_NUMBER, aside=aside, fix=fix)
+    note = ""
+    if working != back:
+        longer, reserve = "working" if working > back else "return", design.cycle.longer_stroke_reserve
+        note = (
+            f"the balancing device is sized for the shorter stroke: force reserve {short(100.0 * (reserve or 0.0))} %"
+        )
+        note += f" in the {longer} stroke"
+    if far > 0.0 and near > 0.0:
+        whole = working + far + back + near
+        what = "angles of strokes and dwells"
+        yield CYCLE_ANGLES.check("pass", what, whole, 360.0, "deg", side="", aside=aside, note=note)
+
+
+def _contours(design: WideSwingDesign) -> list[tuple[str, ClosedCam]]:
+    """The closed contours of the cams that have a profile."""
+    try:
+        found = list(design.cycle.contours.items())
+        for _, cam in found:
+            _ = cam.slot
+    except NoSolution:
+        # what is refused here fails in checks of its own
+        return []
+    return found
+
+
+def profile_planes(design: WideSwingDesign) -> Iterator[Check]:
+    """GL513: whether the two profiles of a twin-rocker's cam can stand in one plane."""
+    if not _contours(design):
+        return
+    room = design.cycle.plane_room
+    if room is None:
+        return
+    status: Status = "pass" if room > 0.0 else "warn"
+    what, overlap = "distance of the two profiles at the dwells", "overlap of the two profiles at the dwells"
+    fix = "cut the profiles in two planes next to each other"
+    yield PROFILE_PLANES.check(status, what, room, 0.0, "mm", overlap=overlap, fix=fix)
 
 
 LAW = {
@@ -202,46 +391,10 @@ def _k(samples: int | None) -> Any:
     return np.arange(rows.start, rows.stop) / count
 
 
-def law_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """The invariants of the law over the stroke."""
-    k = _k(samples)
-    a, b, c = design.motion.law.invariants(k, 2)
-    return Table.of("law", {"k": (k, "1"), "displacement": (a, "1"), "velocity": (b, "1"), "acceleration": (c, "1")})
-
-
-def slider_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """The slider's invariants over the stroke, its travel and its speed at the design speed."""
-    k, moved = _k(samples), design.motion.slider
-    a, b, c = moved.slider_invariants(k)
-    columns = {
-        "k": (k, "1"),
-        "displacement": (a, "1"),
-        "velocity": (b, "1"),
-        "acceleration": (c, "1"),
-        "travel": (moved.stroke * a, "mm"),
-        "speed": (moved.stroke / design.motion.working_time * b, "mm/s"),
-    }
-    return Table.of("slider", columns)
-
-
 def _speed_shares() -> Any:
     import numpy as np
 
     return np.arange(10, 135, 5) / 100.0
-
-
-def contact_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """Force of the roller on the cam over the stroke and the speed, empty where it does not touch the profile."""
-    import numpy as np
-
-    shares, count = _speed_shares(), samples or 100
-    rows = row_numbers(samples, shares.size * (count + 1))
-    number = np.arange(rows.start, rows.stop)
-    k, share = number % (count + 1) / count, shares[number // (count + 1)]
-    columns = {"k": (k, "1"), "force": (_force(design, design.cam, k, share), "N"), "speed_share": (share, "1")}
-    if design.return_cam is not None:
-        columns["return_force"] = (_force(design, design.return_cam, k, share), "N")
-    return Table.of("contact", columns)
 
 
 def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
@@ -255,29 +408,6 @@ def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
     return force
 
 
-def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
-    """Torque on the rocker axis with and without the device, over the speed."""
-    import numpy as np
-
-    from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio
-
-    share, spec = _speed_shares(), design.spec
-    losses = spec.unloader.residual, design.unloading.size.reserve
-    without, left = torque_peaks(design, share)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = without / left
-    columns = {
-        "speed": (share * spec.speed, "1/min"),
-        "torque_without": (without, "N m"),
-        "torque_with": (left, "N m"),
-        "ratio": (ratio, "1"),
-    }
-    if spec.shaft is not None:
-        columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
-        columns["dynamic_coefficient"] = (design.unloading.dynamic_coefficients(share.tolist()), "1")
-    return Table.of("balance", columns)
-
-
 def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
     """Peaks on the rocker axis without and with the device [N m], over (N,) shares of the design speed."""
     from gearlink.core.machines.wide_swing.torques import speed_sweep
@@ -285,53 +415,6 @@ def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
     losses = design.spec.unloader.residual, design.unloading.size.reserve
     motion = design.motion
     return speed_sweep(design.unloading.even_inertia, motion.plain_law, motion.stroke_time, share, *losses)
-
-
-def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
-    """Steps of the source's iteration against its error; with a slider its passes, whose two marches add up to 1."""
-    from gearlink.core.machines.wide_swing.law import MarchedLaw, legacy_law
-
-    marched = design.unloading.iteration
-    if isinstance(marched, MarchedLaw):
-        heads = ("pass", "energy_parameter", "mu", "displacement_forward", "displacement_backward")
-        passes = zip(*marched.rows, strict=True)
-        return Table.of("iteration", {head: (list(each), "1") for head, each in zip(heads, passes, strict=True)})
-    motion, steps = design.motion, (5, 10, 20, 50, 100, 200)
-    laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]
-    exact = motion.plain_law.energy_parameter
-    columns = {
-        "steps": (steps, "1"),
-        "passes": ([law.passes for law in laws], "1"),
-        "energy_parameter": ([law.energy_parameter for law in laws], "1"),
-        "relative_error": ([law.energy_parameter / exact - 1.0 for law in laws], "1"),
-    }
-    return Table.of("iteration", columns)
-
-
-def history_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
-    """Torques of rocker shaft and main shaft over the stroke and the rest after it, with elasticity."""
-    return design.unloading.history()
-
-
-def contour_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """Both cams as closed contours over one revolution."""
-    return design.cycle.table(samples)
-
-
-def joints_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
-    """The joints of both closed contours."""
-    return design.cycle.joints()
-
-
-def main_cam_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """The cam of the working stroke; where the roller's slot cuts the profile away, x and y are empty."""
-    return _cam(design, "main_cam", design.cam, 1.0, samples)
-
-
-def return_cam_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """The cam of the return stroke: a mirror image (twin-cam), or the external profile of the twin-rocker."""
-    mirror = -1.0 if design.spec.layout != "twin-rocker" else 1.0
-    return _cam(design, "return_cam", design.return_cam or design.even_cam, mirror, samples)
 
 
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
@@ -961,21 +1044,412 @@ class WideSwingDesign(Design):
             value = value_of(self)
         return None if value is None or math.isinf(value) else value
 
-    table_law, table_slider, table_balance = law_table, slider_table, balance_table
-    table_iteration, table_contact = iteration_table, contact_table
-    table_history = history_table
-    table_contour, table_joints, table_device = contour_table, joints_table, device_table
-    table_main_cam, table_return_cam = main_cam_table, return_cam_table
+    def table_law(self, samples: int | None = None) -> Table:
+        """The invariants of the law over the stroke."""
+        k = _k(samples)
+        a, b, c = self.motion.law.invariants(k, 2)
+        return Table.of(
+            "law", {"k": (k, "1"), "displacement": (a, "1"), "velocity": (b, "1"), "acceleration": (c, "1")}
+        )
 
-    check_swing_range, check_device_pressure = checks.swing_range, checks.device_pressure
-    check_unloader_turnability, check_force_closure = checks.unloader_turnability, checks.force_closure
-    check_cycle_angles, check_balancing = checks.cycle_angles, checks.balancing
-    check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
-    check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
-    check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
-    check_side_change, check_transmission_angle = checks.side_change, checks.transmission_angle
-    check_acceleration_step, check_closed_contour = checks.acceleration_step, checks.closed_contour
-    check_profile_planes, check_body_clearance = checks.profile_planes, bodies.body_clearance
+    def table_slider(self, samples: int | None = None) -> Table:
+        """The slider's invariants over the stroke, its travel and its speed at the design speed."""
+        k, moved = _k(samples), self.motion.slider
+        a, b, c = moved.slider_invariants(k)
+        columns = {
+            "k": (k, "1"),
+            "displacement": (a, "1"),
+            "velocity": (b, "1"),
+            "acceleration": (c, "1"),
+            "travel": (moved.stroke * a, "mm"),
+            "speed": (moved.stroke / self.motion.working_time * b, "mm/s"),
+        }
+        return Table.of("slider", columns)
+
+    def table_balance(self, _samples: int | None = None) -> Table:
+        """Torque on the rocker axis with and without the device, over the speed."""
+        import numpy as np
+
+        from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio
+
+        share, spec = _speed_shares(), self.spec
+        losses = spec.unloader.residual, self.unloading.size.reserve
+        without, left = torque_peaks(self, share)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = without / left
+        columns = {
+            "speed": (share * spec.speed, "1/min"),
+            "torque_without": (without, "N m"),
+            "torque_with": (left, "N m"),
+            "ratio": (ratio, "1"),
+        }
+        if spec.shaft is not None:
+            columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
+            columns["dynamic_coefficient"] = (self.unloading.dynamic_coefficients(share.tolist()), "1")
+        return Table.of("balance", columns)
+
+    def table_iteration(self, _samples: int | None = None) -> Table:
+        """Steps of the source's iteration against its error; with a slider its passes; two marches add up to 1."""
+        from gearlink.core.machines.wide_swing.law import MarchedLaw, legacy_law
+
+        marched = self.unloading.iteration
+        if isinstance(marched, MarchedLaw):
+            heads = ("pass", "energy_parameter", "mu", "displacement_forward", "displacement_backward")
+            passes = zip(*marched.rows, strict=True)
+            return Table.of("iteration", {head: (list(each), "1") for head, each in zip(heads, passes, strict=True)})
+        motion, steps = self.motion, (5, 10, 20, 50, 100, 200)
+        laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]
+        exact = motion.plain_law.energy_parameter
+        columns = {
+            "steps": (steps, "1"),
+            "passes": ([law.passes for law in laws], "1"),
+            "energy_parameter": ([law.energy_parameter for law in laws], "1"),
+            "relative_error": ([law.energy_parameter / exact - 1.0 for law in laws], "1"),
+        }
+        return Table.of("iteration", columns)
+
+    def table_contact(self, samples: int | None = None) -> Table:
+        """Force of the roller on the cam over the stroke and the speed, empty where it does not touch the profile."""
+        import numpy as np
+
+        shares, count = _speed_shares(), samples or 100
+        rows = row_numbers(samples, shares.size * (count + 1))
+        number = np.arange(rows.start, rows.stop)
+        k, share = number % (count + 1) / count, shares[number // (count + 1)]
+        columns = {"k": (k, "1"), "force": (_force(self, self.cam, k, share), "N"), "speed_share": (share, "1")}
+        if self.return_cam is not None:
+            columns["return_force"] = (_force(self, self.return_cam, k, share), "N")
+        return Table.of("contact", columns)
+
+    def table_history(self, _samples: int | None = None) -> Table:
+        """Torques of rocker shaft and main shaft over the stroke and the rest after it, with elasticity."""
+        return self.unloading.history()
+
+    table_device = device_table
+
+    def table_contour(self, samples: int | None = None) -> Table:
+        """Both cams as closed contours over one revolution."""
+        return self.cycle.table(samples)
+
+    def table_joints(self, _samples: int | None = None) -> Table:
+        """The joints of both closed contours."""
+        return self.cycle.joints()
+
+    def table_main_cam(self, samples: int | None = None) -> Table:
+        """The cam of the working stroke; where the roller's slot cuts the profile away, x and y are empty."""
+        return _cam(self, "main_cam", self.cam, 1.0, samples)
+
+    def table_return_cam(self, samples: int | None = None) -> Table:
+        """The cam of the return stroke: a mirror image (twin-cam), or the external profile of the twin-rocker."""
+        mirror = -1.0 if self.spec.layout != "twin-rocker" else 1.0
+        return _cam(self, "return_cam", self.return_cam or self.even_cam, mirror, samples)
+
+    def check_swing_range(self) -> Iterator[Check]:
+        """GL543: a swing beyond those of the source, near the far dead centre of the device."""
+        swing, law = self.spec.swing, self.motion.law
+        if swing <= _USUAL_SWING * (1.0 + _ROUNDING):
+            return
+        half, g = 0.5 * self.motion.swing, law.geometry
+        lever = math.sin(half) if self.spec.unloader.type == "gravity" else g.ratio * math.sin(half) / g.longest
+        steps = [replace(law, swing=scale * law.swing).energy_parameter for scale in (0.9999, 1.0001)]
+        growth = math.log(steps[1] / steps[0]) / (2e-4 * swing)
+        yield SWING_RANGE.check(
+            "warn",
+            "swing",
+            swing,
+            _USUAL_SWING,
+            "deg",
+            aside=f"lever of the device at the ends {short(lever)} arms, "
+            f"force +{short(100.0 * growth)} % per deg of swing",
+            fix=f"reduce swing to {_USUAL_SWING:g} deg, or add a gear stage",
+            note=f"an external profile has pressure angles above {_STEEPEST:g} deg",
+        )
+
+    def check_device_pressure(self) -> Iterator[Check]:
+        """GL540: the pressure in a closed reservoir rises little over the stroke."""
+        unloader = self.spec.unloader
+        if unloader.type != "pneumatic" or unloader.reservoir is None:
+            return
+        rise = self.unloading.size.force_variation
+        litres = unloader.reservoir
+        fix = ""
+        if rise > MOST_RISE:
+            swept, most = (1.0 - (1.0 + each) ** (-1.0 / ISENTROPIC) for each in (rise, MOST_RISE))
+            fix = f"set unloader.reservoir to at least {safely_above(litres * swept / most)}"
+        yield DEVICE_PRESSURE.check(
+            "warn" if rise > MOST_RISE else "pass",
+            "rise of the cylinder's force over its stroke",
+            rise,
+            MOST_RISE,
+            aside=f"{litres:g} l of air; the law assumes a constant force",
+            fix=fix,
+        )
+
+    def check_unloader_turnability(self) -> Iterator[Check]:
+        """GL504: the device can follow the whole swing."""
+        unloader = self.spec.unloader
+        if unloader.type == "gravity":
+            return
+        least, ratio = self.motion.min_pivot_ratio, unloader.pivot_ratio
+        if least is None:
+            yield from _room_for_steel(self, "give unloader.closed_length or stretch_capacity of the spring that fits")
+            return
+        status: Status = "fail" if ratio < least else "pass"
+        fix, aside = (
+            f"increase unloader.pivot_ratio to at least {safely_above(least)}",
+            f"swing {short(self.spec.swing)} deg",
+        )
+        yield TURNABILITY.check(status, "pivot ratio of the balancing device", ratio, least, aside=aside, fix=fix)
+        capacity = getattr(self.spec.unloader, "stretch_capacity", None) or 0.0
+        if status == "pass" and capacity > MOST_STRETCH:
+            yield from _room_for_steel(self, "take another device, or a smaller unloader.stretch_capacity")
+
+    def check_force_closure(self) -> Iterator[Check]:
+        """GL509: a spring that is slack at mid-swing does not hold the roller there."""
+        unloader = self.spec.unloader
+        if unloader.type != "spring":
+            return
+        stretch = self.motion.stretch_ratio
+        status: Status = "warn" if stretch == 0.0 else "pass"
+        what, aside, fix = "mounting stretch of the spring over its stroke", "", ""
+        if status == "warn":
+            aside = "the spring is slack at mid-swing"
+            given = unloader.free_length is not None
+            fix = "take a shorter spring" if given else "set unloader.stretch_ratio above 0, such as 0.1"
+        yield FORCE_CLOSURE.check(status, what, stretch, 0.0, aside=aside, fix=fix)
+
+    def check_cycle_angles(self) -> Iterator[Check]:
+        """GL510: both strokes find room in one revolution of the cam."""
+        if self.spec.drive is not None:
+            return
+        if self.spec.cycle is not None:
+            yield from _angles_of_cycle(self)
+            return
+        both = 2.0 * math.degrees(self.motion.cycle_angle)
+        what, fix = "cam angle of both strokes", "reduce cycle_angle to 180 deg or less"
+        status: Status = "fail" if both > 360.0 else "pass"
+        yield CYCLE_ANGLES.check(status, what, both, 360.0, "deg", side="<=", fix=fix)
+
+    def check_balancing(self) -> Iterator[Check]:
+        """GL508: speeds at which the device does harm."""
+        harm = self.unloading.harmful_speed
+        lowest = self.spec.operating_speed_min
+        if lowest is None:
+            return
+        status: Status = "warn" if lowest < harm else "pass"
+        share = (lowest / self.spec.speed) ** 2
+        yield BALANCING.check(
+            status,
+            "minimum speed with the balancing device",
+            lowest,
+            harm,
+            "1/min",
+            aside="below, the device increases the torque" if status == "warn" else "",
+            fix=f"reduce its force or rate to {safely_below(share, 3)} of the design value at that speed, or remove it",
+        )
+
+    def check_profile_exists(self) -> Check:
+        """GL505: a cam for this stroke, no loop, and a phase angle above zero."""
+        if self.refusal is not None:
+            return PROFILE_EXISTS.check("fail", self.refusal.message, None, 0.0, fix=self.refusal.fix)
+        margin = self.cam.loop_margin
+        shown = margin if math.isfinite(margin) else None
+        try:
+            self.cam.require_profile()
+        except NoSolution as error:
+            crank = remedies.drive_crank(self) if self.spec.drive is not None else None
+            fix = f"make drive.crank at most {crank:.12g} mm" if crank else error.fix
+            return PROFILE_EXISTS.check("fail", error.message, shown, 0.0, shown=NO_NUMBER, fix=fix)
+        aside = ""
+        if self.spec.drive is None and self.spec.slider is None:
+            aside = f"acceleration phase over {short(math.degrees(self.even_cam.phase_angle))} deg of the cam"
+        what = "the pitch curve has no loop"
+        return PROFILE_EXISTS.check("pass", what, shown, 0.0, shown=NO_NUMBER, aside=aside)
+
+    def check_pressure_angle(self) -> Iterator[Check]:
+        """GL401 where the roller touches the profile."""
+        limit = self.spec.limits.pressure_angle
+        for words, cam in _judged(self):
+            if not self.has_zone(cam):
+                continue
+            value = math.degrees(cam.max_pressure_angle)
+            aside = ""
+            if self.spec.drive is None:
+                aside = "outside the transition zone" if cam.transition_zone > 0.0 else "contact lasts to mid-swing"
+            status: Status = "fail" if value > limit else "pass"
+            what, fix = f"pressure angle of the {words}", _pressure_remedy(self)
+            yield PRESSURE_ANGLE.check(status, what, value, limit, "deg", aside=aside, fix=fix)
+
+    def check_cam_undercut(self) -> Iterator[Check]:
+        """GL402: roller against the curvature where it touches the profile, and against the source's (27)."""
+        from gearlink.core.parts.cams.checks import against_curvature
+
+        roller = self.section.roller_radius
+        for words, cam in _judged(self):
+            if not self.has_zone(cam):
+                yield _covered(cam, words)
+                continue
+            least, fix = cam.min_curvature_radius, ""
+            share = roller / least
+            status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
+            if status != "pass":
+                fix = f"take a roller of at most {safely_below(remedies.roller_for_curvature(self))} mm"
+            what = f"roller radius, {words}"
+            shown = against_curvature(roller, least, status)
+            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, aside=_left_out(cam), fix=fix)
+        if self.spec.layout == "twin-rocker" and self.has_profile:
+            yield from _against_estimate(self, roller)
+
+    def check_transition_zone(self) -> Iterator[Check]:
+        """GL507: the contact changes sides within a small part of the stroke."""
+        limit = self.spec.limits.transition_zone
+        for words, cam in _judged(self):
+            zone = cam.transition_zone
+            fix = note = ""
+            if zone > limit:
+                roller = remedies.roller_for_zone(self)
+                fix = "remove cam.rocker_radius"
+                if math.isfinite(roller):
+                    fix = f"take a roller of at most {safely_below(roller)} mm"
+            status: Status = "fail" if zone > limit else "pass"
+            if status == "pass" and zone > _UNGUIDED:
+                status, note = (
+                    "warn",
+                    f"over {short(2.0 * zone, 3)} of the stroke the balancing device alone guides the rocker",
+                )
+            what = f"half-width of the contact change from one flank of the {words} to the other, over the stroke"
+            yield TRANSITION_ZONE.check(status, what, zone, limit, recommended=_UNGUIDED, fix=fix, note=note)
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
+        from gearlink.core.machines.wide_swing.strokes import is_external
+        from gearlink.core.parts.cams.checks import HUB
+
+        section, shaft = self.section, self.section.shaft_radius
+        yield from _over_rocker_axis(self)
+        if shaft == 0.0:
+            return
+        for words, cam in self.cams.items():
+            bottom = cam.min_radius - section.roller_radius
+            room = bottom - shaft
+            status: Status = "pass"
+            fix, recommended = _shaft_remedy(self), None
+            if room <= 0.0:
+                status = "fail"
+            elif is_external(cam) and bottom < HUB * shaft * (1.0 - _ROUNDING):
+                status, recommended = "warn", (HUB - 1.0) * shaft
+                fix = f"take a shaft_radius of at most {safely_below(bottom / HUB)} mm"
+            yield SHAFT_CLEARANCE.check(
+                status,
+                f"roller of the {words} to the cam shaft",
+                room,
+                0.0,
+                "mm",
+                overlap=f"roller of the {words} within the cam shaft",
+                recommended=recommended,
+                aside=f"shaft radius {short(shaft)} mm",
+                fix=fix,
+            )
+
+    def check_force_reserve(self) -> Check:
+        """GL511: the device presses the roller to its cam at the design speed, with a tenth of speed to spare."""
+        speed, lift_off = self.spec.speed, self.unloading.lift_off_speed
+        status: Status = "pass"
+        if lift_off < 1.1 * speed * (1.0 - 1e-9):
+            status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
+        back, fix = self.unloading.way_back, ""
+        if status != "pass":
+            fix = _more_force(self)
+        governs = back is not None and back.value > 1.0
+        at = f"k = {short(back.place)} of the return stroke" if back is not None and governs else ""
+        return FORCE_RESERVE.check(
+            status,
+            "lift-off speed of the roller",
+            lift_off,
+            speed,
+            "1/min",
+            recommended=1.1 * speed,
+            aside=f"the return stroke requires {short(back.value)} times the force"
+            if back is not None and governs
+            else "",
+            at=at,
+            fix=fix,
+        )
+
+    def check_side_change(self) -> Iterator[Check]:
+        """GL514: device and roller change sides together, at the slot of a cam whose rocker drives a slider."""
+        if self.spec.slider is None or not self.has_profile or not self.has_zone(self.cam):
+            return
+        start, end = self.slot_of(self.cam)
+        middle = self.motion.slider.middle_place
+        beyond = max(start - middle, middle - end)
+        aside = f"force reverses at k {short(middle)}, roller contact at k {short(start)} to {short(end)}"
+        if beyond > 0.0:
+            what, fix = "the roller is pushed off its cam near mid-swing", remedies.side_words(self.spec.slider)
+        else:
+            what, fix = "balancing force and roller contact reverse together", ""
+        status: Status = "fail" if beyond > 0.0 else "pass"
+        yield SIDE_CHANGE.check(status, what, beyond, 0.0, shown=NO_NUMBER, aside=aside, fix=fix)
+
+    def check_transmission_angle(self) -> Iterator[Check]:
+        """GL303: the crank-rocker that carries the cam, over its turn, and the slider's rod, over the swing."""
+        limit = self.spec.limits.transmission_angle
+        for key, angle in self.motion.transmission_angles.items():
+            subject, remedy = _TRANSMISSION[key]
+            yield transmission_check(angle, limit, remedy, subject)
+
+    def check_acceleration_step(self) -> Iterator[Check]:
+        """GL404: at the joints of strokes and rests the tangent goes over, the rocker's acceleration jumps."""
+        import numpy as np
+
+        for words, cam in _contours(self):
+            first, pace = cam.joints[0], self.spec.speed * math.tau / 60.0
+            start = float(self.motion.plain_law.invariants(np.zeros(1), 2)[2][0])
+            step = start * self.motion.swing * (pace / cam.own) ** 2
+            what, aside = f"acceleration step of the rocker at the dwells of the {words}", "no velocity step"
+            note = f"the radius of the pitch curve steps from {short(first.before)} to {short(first.after)} mm there"
+            fix = "compute the vibration with the section shaft"
+            yield ACCELERATION_STEP.check("warn", what, step, 0.0, "rad/s^2", aside=aside, fix=fix, note=note)
+
+    def check_closed_contour(self) -> Iterator[Check]:
+        """GL512: the roller goes round each closed contour without a cut, and the contour does not cross itself."""
+        from gearlink.core.parts.cams.checks import HUB
+
+        shaft, clearance = self.section.shaft_radius, self.section.free_clearance
+        for words, cam in _contours(self):
+            cut, least = cam.cut, cam.least_radius
+            if cut.depth > _CUT * cam.cam.roller_radius:
+                what = f"cut of the roller into the contour of the {words}"
+                at = f"cam angle {short(math.degrees(cut.cam_angle))} deg"
+                fix, shown = "take a smaller cam.roller_radius", Shown(cut.depth, 0.0, "mm", "<=")
+                yield CLOSED_CONTOUR.check("fail", what, -cut.depth, 0.0, "mm", shown=shown, at=at, fix=fix)
+            elif clearance >= cam.largest_clearance:
+                most = cam.largest_clearance
+                what = f"clearance of the roller in the free sector of the {words}"
+                fix, shown = "take a smaller cam.roller_radius", NO_NUMBER
+                if most > 0.0:
+                    fix, shown = (
+                        f"set cam.free_clearance below {safely_below(most)} mm",
+                        Shown(clearance, most, "mm", "<="),
+                    )
+                else:
+                    what = f"the contour of the {words} crosses itself in its free sector"
+                yield CLOSED_CONTOUR.check("fail", what, clearance, most, "mm", shown=shown, fix=fix)
+            elif least <= shaft:
+                what, fix = f"minimum radius of the contour of the {words}", "set a larger cam.center_distance"
+                yield CLOSED_CONTOUR.check("fail", what, least, shaft, "mm", aside="shaft radius", fix=fix)
+            elif cam.cam.sense > 0 and least < HUB * shaft and least < cam.cam.min_radius - cam.cam.roller_radius:
+                what, shown = (
+                    f"minimum radius of the contour of the {words}",
+                    Shown(least, HUB * shaft, "mm", ">=", "recommended"),
+                )
+                aside, fix = f"{HUB:g} times the shaft radius", "set a smaller cam.free_clearance"
+                yield CLOSED_CONTOUR.check("warn", what, least, shaft, "mm", shown=shown, aside=aside, fix=fix)
+            else:
+                what = f"minimum radius of the contour of the {words}"
+                yield CLOSED_CONTOUR.check("pass", what, least, shaft, "mm")
+
+    check_profile_planes, check_body_clearance = profile_planes, bodies.body_clearance
 
     ways = remedies.WAYS
     requirements = Design.requirements | {"swing", "operating_speed_min"}
