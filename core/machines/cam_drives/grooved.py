@@ -16,11 +16,20 @@ from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, within
+from gearlink.core.mechanism.closures import dyad
+from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.dual import Shift, longer
+from gearlink.core.mechanism.joints import Connection, Contact, Mesh, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Input, Motion, Output
+from gearlink.core.mechanism.rates import Turn, fixed, mixed, steady
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, extremes_over, least_convex_radius
 from gearlink.core.parts.cams.checks import ROLLER_SHARE, against_curvature, is_steep
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.undercut import undercut
+from gearlink.core.studies.movable import Movable
+from gearlink.core.studies.tolerance.sources import CAM_PROFILE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.spec import CamGearSpec, CamLinkageSpec
@@ -518,16 +527,12 @@ class CamLinkage(Grooved):
     def path(self, theta: Reals) -> Path:
         """C and its derivatives; u is across BC."""
 
-        from gearlink.core.machines.cam_drives.mechanism import five_bar
-
         links = five_bar(self, theta, 2, 1)
         place = links["coupler"].at("C")
         return Path(place.value, place.first, place.second, np.asarray(1j * links["coupler"].unit))
 
     def _lean(self, theta: Reals) -> Reals:
         """Signed angle between the lines of follower and output [rad]."""
-
-        from gearlink.core.machines.cam_drives.mechanism import five_bar
 
         links = five_bar(self, theta, 0, 1)
         apart = np.conj(links["follower"].unit) * links["output"].unit
@@ -571,3 +576,108 @@ class CamLinkage(Grooved):
             "minimum transmission angle of follower and output",
             at=f"input angle {short(place)} deg",
         )
+
+
+def _groove(design: Grooved, phi: Reals, on: str) -> Contact:
+    """The roller in the groove of the frame: a force of either sense along the normal."""
+    path = design.path(phi)
+    normal = 1j * path.first / np.abs(path.first)
+    bend = (np.conj(path.first) * path.second).imag / np.abs(path.first) ** 3
+    return Contact("groove", FRAME, on, path.place, np.asarray(normal), None, np.asarray(-bend))
+
+
+def _inner(joints: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(joint for joint in joints if joint > 0.0)
+
+
+def cam_gear(design: CamGear) -> Motion:
+    """Carrier on +x at input angle 0, both gears' axis and the input's at 0."""
+    design.require_closed()
+    pair, length, arm = design.gear_data.pair, design.carrier_length, design.spec.lever.length
+    one, other = pair.working_radius
+    tangent = math.tan(pair.working_pressure_angle)
+
+    def make(phi: Reals, order: int, side: int) -> Mechanism:
+        axis = fixed(0j, phi, order=order)
+        carrier = Link(axis, steady(phi, order=order), {"A": 0.0, "B": length})
+        lever = Turn(*design.lever(phi, order, side))
+        planet = Link(carrier.at("B"), mixed((1.0, carrier.turn), (1.0, lever)), {"B": 0.0, "P": arm})
+        links = {"carrier": carrier, "planet": planet,
+                 "sun": Link(axis, Turn(*design.output_motion.evaluate(phi, order, side=side)))}  # fmt: skip
+        joints: list[Connection] = [
+            Pin("A", FRAME, "carrier", axis.value),
+            Pin("B", "carrier", "planet", planet.origin.value),
+            Pin("D", FRAME, "sun", axis.value),
+            Mesh("mesh", "sun", "planet", axis.value, carrier.unit, one, other, tangent, False, "carrier"),
+            _groove(design, phi, "planet"),
+        ]
+        return Mechanism(links, joints, "carrier")
+
+    joints = _inner(design.output_motion.joints)
+    return Motion(make, Input(joints=joints), (Output("Sun", turned("sun")),))
+
+
+def cam_gear_errors(design: CamGear, mechanism: Mechanism) -> Movable:
+    """Lever, centre distance and the groove; the error is measured at the sun's pitch circle."""
+    ends = {"centers.gears": ("carrier", design.carrier_length)}
+    outwards = (Shift(FRAME, ("groove",), 1.0, "normal"),)
+    return Movable(
+        longer(mechanism, ends) | {"lever.length": (Shift("planet", ("groove",)),), CAM_PROFILE: outwards},
+        {"gears": design.carrier_length},
+        others={CAM_PROFILE: 0.0},
+        pins={"roller": (Shift("planet", ("groove",), 1.0, "frame"),)},
+        rollers=("roller",),
+        radius=design.gear_data.pair.working_radius[0],
+    )
+
+
+def five_bar(design: CamLinkage, phi: Reals, order: int, side: int) -> dict[str, Link]:
+    """Input, coupler, follower and output; A at 0, E on +x."""
+    given = design.spec.links
+    value, *rates = design.output_motion.evaluate(phi, order, side=side)
+    angle = Turn(value + design.spec.phase * _DEGREE, *rates)
+    first = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": given.input})
+    last = Link(fixed(given.frame, phi, order=order), angle, {"E": 0.0, "D": given.output})
+    coupler, follower = dyad(first.at("B"), last.at("D"), given.coupler, given.follower, design.spec.assembly)
+    return {
+        "input": first,
+        "coupler": Link(first.at("B"), coupler, {"B": 0.0, "C": given.coupler}),
+        "follower": Link(last.at("D"), follower, {"D": 0.0, "C": given.follower}),
+        "output": last,
+    }
+
+
+def cam_linkage(design: CamLinkage) -> Motion:
+    """Links and joints over the input angle, AB on +x at 0."""
+    design.require_closed()
+
+    def make(phi: Reals, order: int, side: int) -> Mechanism:
+        links = five_bar(design, phi, order, side)
+        joints: list[Connection] = [
+            Pin("A", FRAME, "input", links["input"].origin.value),
+            Pin("B", "input", "coupler", links["coupler"].origin.value),
+            Pin("C", "coupler", "follower", links["coupler"].at("C").value),
+            Pin("D", "output", "follower", links["follower"].origin.value),
+            Pin("E", FRAME, "output", links["output"].origin.value),
+            _groove(design, phi, "coupler"),
+        ]
+        return Mechanism(links, joints, "input")
+
+    start = math.radians(design.spec.phase)
+    output = Output("Output link ED", turned("output").less(start) if start else turned("output"))
+    return Motion(make, Input(joints=_inner(design.output_motion.joints)), (output,))
+
+
+def cam_linkage_errors(design: CamLinkage, mechanism: Mechanism) -> Movable:
+    """The links, the groove, and the roller's pin."""
+    given = design.spec.links
+    ends = {f"links.{name}": (name, getattr(given, name)) for name in ("input", "follower", "output")}
+    sizes = longer(mechanism, ends)
+    sizes["links.coupler"] = (Shift("coupler", ("C", "groove")),)
+    return Movable(
+        sizes | {CAM_PROFILE: (Shift(FRAME, ("groove",), 1.0, "normal"),)},
+        others={CAM_PROFILE: 0.0},
+        pins={"roller": (Shift("coupler", ("groove",), 1.0, "frame"),)},
+        rollers=("roller",),
+        radius=given.output,
+    )

@@ -6,11 +6,20 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.dual import Shift
+from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Input, Motion, Output
+from gearlink.core.mechanism.rates import Point, fixed, standing, steady
+from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.spec import LinkedCamsSpec
@@ -61,8 +70,6 @@ class LinkedCams(RealSpeed, Design):
 
     def coordinate(self, axis: int, theta: Reals, order: int) -> list[Reals]:
         """x or y and derivatives by the input angle [mm]."""
-        import numpy as np
-
         if self.spec.path.points is not None:
             return self._splines[axis].evaluate(theta, order)
         assert self.spec.path.harmonics is not None
@@ -178,8 +185,6 @@ class LinkedCams(RealSpeed, Design):
 
     def table_path(self, samples: int | None = None) -> Table:
         """The path over the input angle, with lifts and rates."""
-        import numpy as np
-
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees = turn_degrees(samples)
@@ -214,3 +219,48 @@ class LinkedCams(RealSpeed, Design):
         from gearlink.core.parts.cams.checks import undercut_checks
 
         return undercut_checks(self.cams, plainly=_LARGER)
+
+
+def linked_cams(design: LinkedCams) -> Motion:
+    """Shaft at 0 with both cams, a slide along x, a slide along y, and the table that both move."""
+    cams = design.cams
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        x, y = (design.coordinate(axis, phi, order) for axis in (0, 1))
+        level = standing(0.0, phi, order=order)
+        links = {
+            "cam": Link(fixed(0j, phi, order=order), steady(phi, order=order)),
+            "slide_x": Link(_along(x, 1.0, design.spec.cams.x.base_radius - design.lowest[0]), level),
+            "slide_y": Link(_along(y, 1j, design.spec.cams.y.base_radius - design.lowest[1]), level),
+            "table": Link(Point(*(one + 1j * other for one, other in zip(x, y, strict=True))), level),
+        }
+        place = links["table"].origin.value
+        joints: list[Connection] = [
+            Pin("O", FRAME, "cam", links["cam"].origin.value),
+            Guide("guide_x", FRAME, "slide_x", links["slide_x"].origin.value, 1.0 + 0j),
+            Guide("guide_y", FRAME, "slide_y", links["slide_y"].origin.value, 1j),
+            Guide("cross", "slide_x", "table", place, 1j),
+            Contact("push_y", "slide_y", "table", place, np.full_like(place, 1j)),
+        ]
+        for cam, name in zip(cams, ("x", "y"), strict=True):
+            at = links[f"slide_{name}"].origin.value
+            joints.append(Contact(f"roller_{name}", "cam", f"slide_{name}", at, cam.normals(phi)))
+        travel = {"slide_x": 1.0 + 0j, "slide_y": 1j}
+        return Mechanism(links, joints, "cam", travel=travel)
+
+    outputs = (Output("x", coordinate("table")), Output("y", coordinate("table", along=1j)))
+    return Motion(make, Input(joints=tuple(joint for joint in design.joints if joint > 0.0)), outputs)
+
+
+def _along(rates: list[Reals], way: complex, start: float) -> Point:
+    """A slide that moves along a direction; its place is its roller's."""
+    value, *others = rates
+    return Point(np.asarray(way * (value + start)), *(np.asarray(way * each) for each in others))
+
+
+def linked_errors(_design: LinkedCams, _mechanism: Mechanism) -> Movable:
+    """Rollers and profiles: what an error of the radius of one, or of the size of its cam, does to the path."""
+    outwards = {name: (Shift("cam", (f"roller_{name}",), 1.0, "normal"),) for name in ("x", "y")}
+    profiles = {f"cams.{name}.profile": shifts for name, shifts in outwards.items()}
+    rollers = {f"cams.{name}.roller_radius": shifts for name, shifts in outwards.items()}
+    return Movable(rollers | profiles, others=dict.fromkeys(profiles, 0.0))
