@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter
 from types import SimpleNamespace
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.core.base.design import Design, Outline
-from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
@@ -35,8 +36,10 @@ from gearlink.core.machines.wide_swing.codes import (
 )
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
 from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, QUANTITIES, DeviceSize, device_table, names
+from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CAM_UNDERCUT, PRESSURE_ANGLE
+from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, gear_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
@@ -46,14 +49,173 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
     from gearlink.core.machines.wide_swing.law import LegacyLaw, MarchedLaw
     from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam
-    from gearlink.core.machines.wide_swing.parallel import ParallelShafts
     from gearlink.core.machines.wide_swing.slider import SliderCam
-    from gearlink.core.machines.wide_swing.spec import SwingCam, SwingShaft, WideSwingSpec
+    from gearlink.core.machines.wide_swing.spec import SecondShaft, SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.machines.wide_swing.strokes import AnyCam
     from gearlink.core.machines.wide_swing.torques import FlankImpact
-    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.numerics.periodic import CosineSeries
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+
+
+OF_GEARS = tuple(f"shaft_gears.{name}" for name in GEAR_QUANTITIES)
+_TURN = 2.0 * math.pi
+_COARSE, _FINE = (120, 48), (360, 400)
+"""Angles of a revolution and points of a piece of a contour, in the two rounds of the search."""
+
+
+@dataclass(frozen=True)
+class ParallelShafts:
+    """Both shafts, from the design; lengths in mm.
+
+    Source
+        wide-swing dissertation, figure 2, whose drawing is lost: the layout is a reconstruction
+    """
+
+    design: WideSwingDesign
+
+    @property
+    def _second(self) -> SecondShaft:
+        second = self.design.section.second
+        if second is None:
+            raise MissingSection("this needs layout: twin-cam-parallel and cam.second: direction", key="cam")
+        return second
+
+    @property
+    def roller_arm_angle(self) -> float:
+        """psi, between the arms of the two rollers, that of the directions to both shafts [rad]."""
+        return math.radians(self._second.direction)
+
+    @property
+    def cams(self) -> tuple[WideSwingCam, WideSwingCam]:
+        """The cam of the working stroke and that of the return stroke."""
+        _ = self._second
+        other = self.design.return_cam
+        assert other is not None, "the second cam has a shaft of its own"
+        return self.design.even_cam, other
+
+    @property
+    def shafts(self) -> tuple[complex, complex]:
+        """Both shafts, from the rocker's axis [mm]."""
+        first, second = self.cams
+        return complex(first.center_distance), cmath.rect(second.center_distance, self.roller_arm_angle)
+
+    @property
+    def shaft_distance(self) -> float:
+        """|O1 O2|, |.|^2 = a_1^2 + a_2^2 - 2 a_1 a_2 cos psi [mm]."""
+        return abs(self.shafts[1] - self.shafts[0])
+
+    @property
+    def _outer(self) -> tuple[float, float]:
+        """Maximum radius of both profiles [mm]."""
+        first, second = self.cams
+        return first.max_radius - first.roller_radius, second.max_radius - second.roller_radius
+
+    @property
+    def cam_gap(self) -> float:
+        """Room between the circles of both cams, as if in one plane [mm]; negative where they overlap."""
+        return self.shaft_distance - sum(self._outer)
+
+    @property
+    def cam_shaft_gap(self) -> float:
+        """Minimum room between a cam and the shaft of the other [mm]."""
+        return self.shaft_distance - max(self._outer) - self.design.section.shaft_radius
+
+    @cached_property
+    def gears(self) -> GearPair:
+        """The pair 1:1 between the shafts, so that the cams turn against each other."""
+        from gearlink.core.parts.gears.from_spec import pair_at
+
+        given = self.design.spec.gears
+        if given is None:
+            raise MissingSection("this needs the section gears: module", key="gears")
+        # what m z leaves of the distance is made up by positive shift
+        teeth = given.teeth or int(self.shaft_distance * math.cos(math.radians(given.helix_angle)) / given.module)
+        with in_section("gears"):
+            return pair_at(given, (teeth, teeth), self.shaft_distance)
+
+    # In one plane
+
+    @cached_property
+    def plane_gap(self) -> float:
+        """Least room in one plane [mm]: circles where they clear, else the contours over a turn; and each roller
+        beside the other cam."""
+        gap = self.cam_gap
+        if gap < 0.0 and self.design.spec.cycle is not None:
+            gap = self._contour_gap
+        return min(gap, self._roller_gap)
+
+    @property
+    def _roller_gap(self) -> float:
+        """Minimum clearance between a roller, over its swing, and the circle of the other cam [mm]."""
+        from gearlink.core.numerics.extremes import minimum_over
+
+        half, found = 0.5 * self.design.motion.swing, []
+        for number, cam in enumerate(self.cams):
+            arm = cmath.rect(cam.rocker_radius, (0.0, self.roller_arm_angle)[number])
+            other = self.shafts[1 - number]
+
+            def room(phi: Reals, arm: complex = arm, other: complex = other) -> Reals:
+                return np.asarray(np.abs(arm * np.exp(1j * phi) - other))
+
+            nearest = minimum_over(room, -half, half, samples=128).value
+            found.append(nearest - self._outer[1 - number] - cam.roller_radius)
+        return min(found)
+
+    @property
+    def _contour_gap(self) -> float:
+        """Minimum distance of both closed contours while the cams turn against each other; negative: how deep they cut.
+
+        Notes
+            Looked for from coarse to fine, points against points: off by the square of their distance over the gap.
+        """
+        whole = self.design.cycle
+        pairs = [(_outline(whole.main, count), _outline(whole.back, count)) for _, count in (_COARSE, _FINE)]
+        angles = np.linspace(0.0, _TURN, _COARSE[0], endpoint=False)
+        rough = self._gaps(*pairs[0], angles)
+        best, step = float(angles[int(np.argmin(rough))]), _TURN / _COARSE[0]
+        near = np.linspace(best - step, best + step, _FINE[0] // 8)
+        return float(self._gaps(*pairs[1], near).min())
+
+    def _gaps(self, first: Points, second: Points, angles: Reals) -> Reals:
+        """The gap at cam angles from the start of the working stroke."""
+        from scipy.spatial import cKDTree
+
+        whole, (near, far) = self.design.cycle, self.shafts
+        tree = cKDTree(np.column_stack((second.real, second.imag)))
+        order = np.argsort(np.angle(second))
+        polar, radius = np.angle(second)[order], np.abs(second)[order]
+        turned = cmath.exp(-1j * self.roller_arm_angle)
+        late = whole.angles[0] + whole.angles[1]
+        found = []
+        for angle in angles.tolist():
+            world = near + first * cmath.exp(-1j * (angle - 0.5 * whole.main.own))
+            seen = np.conj((world - far) * turned) * cmath.exp(1j * (angle - late - 0.5 * whole.back.own))
+            distance = tree.query(np.column_stack((seen.real, seen.imag)))[0]
+            inside = np.abs(seen) < np.interp(np.angle(seen), polar, radius, period=_TURN)
+            found.append(float(np.where(inside, -distance, distance).min()))
+        return np.array(found)
+
+
+def _outline(cam: ClosedCam, count: int) -> Points:
+    return np.concatenate([points for _, points in cam.outline(count)])
+
+
+def cam_clearance(design: WideSwingDesign) -> Iterator[Check]:
+    """GL541: two cams on parallel shafts beside each other."""
+    from gearlink.core.machines.wide_swing import codes
+
+    if design.section.second is None or not design.has_profile:
+        return
+    shafts, limit = design.shafts, design.spec.limits.cam_gap
+    same = design.section.planes == "same"
+    gap = min(shafts.cam_shaft_gap, shafts.plane_gap) if same else shafts.cam_shaft_gap
+    what = "cams, rollers and shafts in one plane" if same else "each cam and the shaft of the other"
+    fix = "set cam.planes to separate" if same else "set cam.second.direction farther from 0"
+    yield codes.CAM_CLEARANCE.check(
+        "fail" if gap < limit else "pass", f"clearance between {what}", gap, limit, "mm", fix=fix if gap < limit else ""
+    )
 
 
 _ROUNDING = 1e-9
@@ -343,7 +505,6 @@ Places: TypeAlias = SimpleNamespace
 def of_motion(design: WideSwingDesign) -> Places:
     """Extremes of the rocker's speed [rad/s] and acceleration [rad/s^2] over the working stroke, cam angles [rad]."""
     from gearlink.core.numerics.extremes import share_of
-    from gearlink.core.numerics.motion_extremes import extremes
 
     motion = design.motion
     law, swing, angle, time = motion.law, motion.swing, motion.cycle_angle, motion.working_time
@@ -356,8 +517,6 @@ def of_motion(design: WideSwingDesign) -> Places:
 
 def of_pressure(design: WideSwingDesign) -> float:
     """Cam angle [rad] of the maximum pressure angle on the profile."""
-    import numpy as np
-
     # Next to a standstill of a cam that swings itself the ratio of both rates has no digits.
     found = _greatest(design, lambda k: np.abs(design.cam.pressure_angle(k)))
     if design.spec.drive is not None:
@@ -384,22 +543,16 @@ def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extre
 
 
 def _k(samples: int | None) -> Any:
-    import numpy as np
-
     count = samples or 100
     rows = row_numbers(samples, count + 1)
     return np.arange(rows.start, rows.stop) / count
 
 
 def _speed_shares() -> Any:
-    import numpy as np
-
     return np.arange(10, 135, 5) / 100.0
 
 
 def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.strokes import middle_of
 
     touching = design.touches(cam, k) & (k != middle_of(cam))
@@ -418,8 +571,6 @@ def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
 
 
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
-    import numpy as np
-
     k = _k(samples)
     gone = ~design.touches(cam, k)
     points = cam.points(k)
@@ -559,8 +710,6 @@ class Unloading:
         Notes
             The first natural frequency is that of the mean inertia. What the stroke before has left is not counted.
         """
-        import numpy as np
-
         from gearlink.core.machines.wide_swing.torques import TorsionResponse
 
         motion, shaft, time = self.motion, self._shaft, self.motion.working_time
@@ -648,8 +797,6 @@ class Unloading:
             strokes, T that of the cam's own. With a slider the force reverses at mid-swing, the roller where the
             rocker is fastest: between the two the force is negative.
         """
-        import numpy as np
-
         from gearlink.core.machines.wide_swing.strokes import middle_of
 
         motion = self.motion
@@ -670,8 +817,6 @@ class Unloading:
         Returns
             force : float [N] - it also acts at the ends of the strokes of a machine that barely turns
         """
-        import numpy as np
-
         return max(float(self.contact_force(cam, np.array([0.0, 1.0]), 0.0).max()) for cam in cams)
 
 
@@ -852,13 +997,11 @@ class WideSwingDesign(Design):
     @cached_property
     def shafts(self) -> ParallelShafts:
         """Both shafts of a twin-cam-parallel."""
-        from gearlink.core.machines.wide_swing.parallel import ParallelShafts
 
         return ParallelShafts(self)
 
     def check_cam_clearance(self) -> Iterator[Check]:
         """GL541."""
-        from gearlink.core.machines.wide_swing.parallel import cam_clearance
 
         return cam_clearance(self)
 
@@ -1034,8 +1177,6 @@ class WideSwingDesign(Design):
         if name in OF_BOTH and self.section.second is not None:
             return [getattr(cam, name) for cam in self.shafts.cams]
         if name.startswith("shaft_gears."):
-            from gearlink.core.parts.gears.checks import gear_quantity
-
             return gear_quantity(self.shafts.gears, name.rpartition(".")[2])
         value_of = attrgetter(PATHS[name])
         if "cam." not in PATHS[name]:
@@ -1068,8 +1209,6 @@ class WideSwingDesign(Design):
 
     def table_balance(self, _samples: int | None = None) -> Table:
         """Torque on the rocker axis with and without the device, over the speed."""
-        import numpy as np
-
         from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio
 
         share, spec = _speed_shares(), self.spec
@@ -1110,8 +1249,6 @@ class WideSwingDesign(Design):
 
     def table_contact(self, samples: int | None = None) -> Table:
         """Force of the roller on the cam over the stroke and the speed, empty where it does not touch the profile."""
-        import numpy as np
-
         shares, count = _speed_shares(), samples or 100
         rows = row_numbers(samples, shares.size * (count + 1))
         number = np.arange(rows.start, rows.stop)
@@ -1400,8 +1537,6 @@ class WideSwingDesign(Design):
 
     def check_acceleration_step(self) -> Iterator[Check]:
         """GL404: at the joints of strokes and rests the tangent goes over, the rocker's acceleration jumps."""
-        import numpy as np
-
         for words, cam in _contours(self):
             first, pace = cam.joints[0], self.spec.speed * math.tau / 60.0
             start = float(self.motion.plain_law.invariants(np.zeros(1), 2)[2][0])
@@ -1526,8 +1661,6 @@ class WideSwingDesign(Design):
         if section.second is not None:
             shown += SHAFTS
             if self.spec.gears is not None:
-                from gearlink.core.machines.wide_swing.parallel import OF_GEARS
-
                 shown += OF_GEARS
         if section.roller_clearance is not None:
             shown += [name for name in IMPACT if name != "impact_force" or section.contact_stiffness is not None]
@@ -1560,6 +1693,5 @@ class WideSwingDesign(Design):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those of an optional section included."""
-        from gearlink.core.machines.wide_swing.parallel import OF_GEARS
 
         return (*PATHS, *OF_GEARS)
