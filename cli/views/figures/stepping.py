@@ -33,8 +33,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.grooved import Grooved
     from gearlink.core.machines.cam_drives.linked import LinkedCams
     from gearlink.core.machines.cycloidal.design import CycloidalReducer
-    from gearlink.core.machines.geneva.bodies import Outlines, Piece
-    from gearlink.core.machines.geneva.design import GenevaDrive
+    from gearlink.core.machines.geneva.design import GenevaDrive, Outlines, Piece
 
 
 _RIM = 2.5

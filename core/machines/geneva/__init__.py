@@ -1,1 +1,1 @@
-"""A Geneva drive: begin with `spec` and `design`; its motion in closed form stands in `mechanism`."""
+"""A Geneva drive: begin with `spec` and `design`, where its motion in closed form stands."""

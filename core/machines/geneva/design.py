@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
@@ -13,16 +18,377 @@ from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
+from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.dual import Shift
+from gearlink.core.mechanism.joints import NEWTON_METER, Connection, Pin, SharedContact
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import TURN, Course, Input, Motion, Output
+from gearlink.core.mechanism.rates import Turn, fixed, steady
+from gearlink.core.numerics.arrays import Mask, Points, Reals, turn_degrees, units
 from gearlink.core.parts.linkages.codes import LOCKING, PIN_ENTRY, SHAFT_CLEARANCE, STEP_RATE
+from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.geneva.bodies import Outlines
-    from gearlink.core.machines.geneva.mechanism import Geneva
     from gearlink.core.machines.geneva.spec import GenevaDriveSpec
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
 
-TURN = 2.0 * math.pi
+
+_NEAR = 8.0
+"""Units in the last place by which an angle may lie beside an end of the motion and be it."""
+
+
+@dataclass(frozen=True)
+class Geneva:
+    """A wheel of radial slots and a crank.
+
+    Fields
+        slots, pins : int
+        distance : float [mm] - of the axes
+        sign : float - +1 external, -1 internal
+    Source
+        thesis 4.2.1; own derivation: the pin enters along the slot, so that the speed has no step
+    """
+
+    slots: int
+    pins: int
+    distance: float
+    sign: float
+
+    @cached_property
+    def ratio(self) -> float:
+        """Crank radius over the distance of the axes, sin(pi/n)."""
+        return math.sin(math.pi / self.slots)
+
+    @property
+    def crank(self) -> float:
+        """Radius of the pin's circle [mm]."""
+        return self.distance * self.ratio
+
+    @property
+    def wheel(self) -> float:
+        """Radius of the wheel to the mouths of its slots [mm]."""
+        return self.distance * math.cos(math.pi / self.slots)
+
+    @property
+    def step(self) -> float:
+        """Angle of the wheel in a step [rad]."""
+        return TURN / self.slots
+
+    @property
+    def half(self) -> float:
+        """Crank angle from the line of centres to where the pin leaves its slot [rad]."""
+        return 0.5 * math.pi - self.sign * math.pi / self.slots
+
+    def rates(self, f: Reals, order: int) -> list[Reals]:
+        """Angle of the wheel and its derivatives while a pin is in a slot.
+
+        psi = atan2(l sin f, 1 - s l cos f),  W = l (cos f - s l)/Q,  W' = -l (1 - l^2) sin f/Q^2,
+        W'' = -l (1 - l^2) (Q cos f - 4 s l sin^2 f)/Q^3,  Q = 1 + l^2 - 2 s l cos f
+
+        Parameters
+            f : (N,) array [rad] - crank angle from the line of centres, within +-half
+            order : int - 0 to 3
+        Returns
+            rates : order + 1 arrays [rad]
+        """
+        lam, s = self.ratio, self.sign
+        cos, sin = np.cos(f), np.sin(f)
+        q = 1.0 + lam * lam - 2.0 * s * lam * cos
+        part = -lam * (1.0 - lam * lam)
+        found = [
+            np.arctan2(lam * sin, 1.0 - s * lam * cos),
+            lam * (cos - s * lam) / q,
+            part * sin / q**2,
+            part * (q * cos - 4.0 * s * lam * sin**2) / q**3,
+        ]
+        return [np.asarray(each) for each in found[: order + 1]]
+
+    def over(self, phi: Reals, order: int, side: int = 1) -> tuple[list[Reals], Mask, Reals]:
+        """Angle of the wheel and its derivatives at any crank angle, whether it moves, and which pin is the nearest.
+
+        Parameters
+            phi : (N,) array [rad] - from a pin on the line of centres
+            side : +1 or -1 - of the ends of the motion, where the second derivative jumps
+        Returns
+            rates, moves, pin : order + 1 (N,) arrays [rad], bool, number of whole pitches from pin 0
+        """
+        pitch = TURN / self.pins
+        near = _NEAR * np.spacing(np.maximum(np.abs(phi), TURN))
+        pin = np.floor(phi / pitch + 0.5)
+        f = phi - pin * pitch
+        late = f >= self.half - near if side > 0 else f > self.half + near
+        early = f < -self.half - near if side > 0 else f <= -self.half + near
+        moves = ~(late | early)
+        held = np.clip(f, -self.half, self.half)  # where the wheel stands only the end of its step counts
+        rates = self.rates(held, order)
+        rates = [np.asarray(rates[0] + pin * self.step), *(np.where(moves, each, 0.0) for each in rates[1:])]
+        return rates, np.asarray(moves), pin
+
+    def reach(self, f: Reals) -> Reals:
+        """Distance of the pin from the wheel's axis [mm]."""
+        a, r = self.distance, self.crank
+        return np.sqrt(a * a + r * r - 2.0 * self.sign * a * r * np.cos(f))
+
+    @cached_property
+    def peak_place(self) -> float:
+        """Crank angle of the maximum acceleration ratio, before the line of centres [rad].
+
+        external: cos f* = -q + sqrt(q^2 + 2), q = (1 + l^2)/(4 l);  internal: the entry
+        """
+        if self.sign < 0.0:
+            return -self.half
+        q = (1.0 + self.ratio**2) / (4.0 * self.ratio)
+        return -math.acos(2.0 / (q + math.sqrt(q * q + 2.0)))
+
+    def leaves(self, angle: float) -> float:
+        """Crank angle from the line of centres at which the wheel has this angle left of its step [rad].
+
+        sin(psi) = l sin(f + s psi), of the closed form of psi
+        """
+        psi = 0.5 * self.step - angle
+        return math.asin(math.sin(psi) / self.ratio) - self.sign * psi
+
+
+def motion(design: GenevaDrive) -> Motion:
+    """Links and joints over the crank angle from the line of centres: crank axis A at 0, the wheel's axis D on the x
+    axis, for an external wheel on +x; a wheel of more slots than the crank has pins comes home after several turns."""
+    drive = design.drive
+    axis, radius, start = complex(drive.sign * drive.distance), drive.crank, math.pi if drive.sign > 0.0 else 0.0
+
+    def make(phi: Reals, order: int, side: int) -> Mechanism:
+        rates, moves, pin = drive.over(phi, order, side)
+        rates[0] = start - drive.sign * rates[0]
+        wheel = Turn(rates[0], *(-drive.sign * each for each in rates[1:]))
+        links = {
+            "crank": Link(fixed(0j, phi, order=order), steady(phi, order=order), {"P": radius}),
+            "wheel": Link(fixed(axis, phi, order=order), wheel),
+        }
+        at = radius * units(phi - pin * (TURN / drive.pins))
+        across = 1j * (at - axis) / np.abs(at - axis)
+        joints: list[Connection] = [
+            Pin("A", FRAME, "crank", links["crank"].origin.value),
+            Pin("D", FRAME, "wheel", links["wheel"].origin.value),
+            SharedContact(
+                "slot",
+                "wheel",
+                np.asarray(at),
+                np.where(moves, across, 0j),
+                {"crank": np.where(moves, 1.0, 0.0)},
+                hold=np.where(moves, 0.0, NEWTON_METER),
+            ),
+        ]
+        return Mechanism(links, joints, "crank")
+
+    pitch = TURN / drive.pins
+    ends = [k * pitch + f for k in range(drive.pins + 1) for f in (-drive.half, drive.half)]
+    joints = tuple(sorted(end for end in ends if 0.0 < end < TURN))
+    return Motion(make, Input("crank_angle", joints=joints), (Output("Wheel", wheel_course(drive)),))
+
+
+def wheel_course(drive: Geneva) -> Course:
+    """Angle of the wheel from the middle of its step, positive the way that it turns [rad]."""
+    start = math.pi if drive.sign > 0.0 else 0.0
+    return turned("wheel", sense=-drive.sign).less(-drive.sign * start)
+
+
+def errors(design: GenevaDrive, _mechanism: Mechanism) -> Movable:
+    """The distance of the axes; the error is measured at the rim of the wheel where the file says nothing else."""
+    return Movable({"center_distance": (Shift(FRAME, ("D",), design.drive.sign),)}, radius=design.drive.wheel)
+
+
+_INSTANTS, _PLACES = 721, 33
+_INSIDE = 1e-9
+"""Share of the locking radius by which a point of the wheel has to lie inside the disc to count."""
+
+
+class Piece(NamedTuple):
+    """A smooth piece of an outline: its name, points over a parameter, and the range of that."""
+
+    name: str
+    curve: Callable[[Reals], Points]
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """Wheel and driver of a drive.
+
+    Fields
+        drive : Geneva
+        slot : float [mm] - half the width of a slot
+        locking, hollow : float [mm] - radii of the locking disc, and of the wheel's locking arcs
+    Source
+        own derivation: the wheel's arc and the disc are circles about the crank's axis in the dwell
+    """
+
+    drive: Geneva
+    slot: float
+    locking: float
+    hollow: float
+
+    @property
+    def tip(self) -> float:
+        """Wheel axis to the corners of a slot's mouth [mm]."""
+        return math.hypot(self.drive.wheel, self.slot)
+
+    @property
+    def depth(self) -> float:
+        """How deep the locking disc reaches into the circle through the corners [mm]; at 0 it holds nothing."""
+        return self.locking - abs(self.drive.distance - self.tip)
+
+    @property
+    def edge(self) -> complex:
+        """Where a locking arc of the driver ends, the pin on the x axis [mm]."""
+        return cmath.rect(self.locking, self.drive.half)
+
+    @property
+    def _arc_half(self) -> float:
+        """Half of the wheel's angle that its locking arc takes of the circle through the corners [rad].
+
+        Raises
+            NoSolution - where the disc covers the whole wheel
+        """
+        distance, tip = self.drive.distance, self.tip
+        if self.hollow <= abs(distance - tip):
+            return 0.0
+        if self.hollow >= distance + tip:  # the disc holds the whole circle
+            return math.pi
+        return _seen(distance, tip, self.hollow)
+
+    @property
+    def play(self) -> float | None:
+        """Angle that the wheel can turn in the middle of the dwell, from one side of the disc to the other [rad].
+
+        The corner of its arc, or the edge of the disc if that is nearer to the line of centres, stands at d from the
+        wheel's axis: 2 (acos((a^2 + d^2 - h^2)/(2 a d)) - acos((a^2 + d^2 - l^2)/(2 a d))), h and l the radii of arc
+        and disc; to first order 2 (h - l)/(a sin t), t from the line of centres at the crank's axis. None where the
+        disc holds nothing.
+        """
+        drive, a, radius = self.drive, self.drive.distance, self.locking
+        end = 0.5 * TURN / drive.pins - drive.half
+        if self.depth <= 0.0 or end <= _INSIDE or self.hollow >= a + self.tip:
+            return None
+        away = math.sqrt(a * a + radius * radius - 2.0 * drive.sign * a * radius * math.cos(end))
+        if drive.sign > 0.0 and _seen(a, self.hollow, self.tip) < end:
+            away = self.tip
+        if self.hollow >= a + away:  # the edge of the disc comes to no side of the arc
+            return None
+        return 2.0 * (_seen(a, away, self.hollow) - _seen(a, away, radius))
+
+    def wheel_half(self) -> list[Piece]:
+        """From the bottom of a slot on the x axis to the middle between two slots.
+
+        Raises
+            NoSolution - where slots run into each other, or the locking arcs reach their bottoms
+        """
+        drive, s, wide = self.drive, self.drive.sign, self.slot
+        bottom, mouth, middle = drive.distance - s * drive.crank, drive.wheel, math.pi / drive.slots
+        axis, corner = cmath.rect(drive.distance, middle), math.asin(wide / self.tip)
+        if corner >= middle:
+            widest = drive.wheel * math.tan(middle)
+            message = f"slots {short(2.0 * wide)} mm wide run into each other at their mouths"
+            raise NoSolution(message, key="pin_radius", fix=f"choose pin_radius below {safely_below(widest)} mm")
+        arc_from = middle - self._arc_half
+        if arc_from < corner:  # no lip: the arc cuts the wall of the slot
+            mouth -= s * math.sqrt(self.hollow**2 - (drive.crank - wide) ** 2)
+            if s * (mouth - bottom) <= 0.0:
+                most = math.hypot(drive.crank - wide, drive.wheel - bottom)
+                message = f"the locking arc of radius {short(self.hollow)} mm reaches the bottoms of the slots"
+                fix = f"choose locking_radius below {safely_below(most)} mm"
+                raise NoSolution(message, key="locking_radius", fix=fix)
+        pieces = [
+            Piece("bottom", lambda t: complex(bottom) - complex(s * wide) * units(-s * t), 0.0, 0.5 * math.pi),
+            Piece("slot", partial(_straight, complex(bottom, wide), complex(mouth, wide)), 0.0, 1.0),
+        ]
+        start = complex(mouth, wide)
+        if arc_from >= corner:
+            pieces.append(Piece("tip circle", lambda t: self.tip * units(t), corner, arc_from))
+            start = cmath.rect(self.tip, arc_from)
+        if self._arc_half > 0.0:
+            inward = -s * cmath.rect(1.0, middle)
+            turn = cmath.phase((start - axis) / inward)
+            arc = Piece("locking arc", lambda t: axis + self.hollow * inward * units(turn * (1.0 - t)), 0.0, 1.0)
+            pieces.append(arc)
+        return pieces
+
+    def driver(self) -> list[Piece]:
+        """The locking disc, counter-clockwise from the cut-out of the pin on the x axis."""
+        drive, half, pitch = self.drive, self.drive.half, TURN / self.drive.pins
+        cut, pieces = self._cut(), []
+        for k in range(drive.pins):
+            pieces.append(Piece("cut-out", partial(_turned, cut, cmath.rect(1.0, k * pitch)), 0.0, 1.0))
+            if pitch - 2.0 * half > _INSIDE:
+                pieces.append(
+                    Piece("locking arc", lambda t: self.locking * units(t), k * pitch + half, (k + 1) * pitch - half)
+                )
+        return pieces
+
+    def _cut(self) -> Callable[[Reals], Points]:
+        """The cut-out, an arc from edge to edge through its vertex."""
+        end, vertex = self.edge, self.cut_vertex
+        half = math.pi - 2.0 * cmath.phase(end - vertex)  # at the arc's centre, by the chord from vertex to edge
+        if abs(half) < _INSIDE:
+            return partial(_straight, end.conjugate(), end)
+        radius = end.imag / math.sin(half)
+        return lambda t: complex(vertex + radius) - complex(radius) * units(-half * (2.0 * t - 1.0))
+
+    @property
+    def cut_vertex(self) -> float:
+        """Where the cut-out crosses the pin's radius, from the crank's axis [mm].
+
+        The textbook's arc (a - wheel) locking/r of an external drive, the chord of an internal one, unless the wheel
+        comes nearer on its way: then the arc that just lets it pass.
+        """
+        drive, end = self.drive, self.edge
+        usual = (drive.distance - drive.wheel) * self.locking / drive.crank if drive.sign > 0.0 else end.real
+        near = self._passing
+        near = near[np.abs(near) < self.locking * (1.0 - _INSIDE)]
+        if drive.sign > 0.0:  # what lies beyond the edges is the overlap
+            near = near[np.abs(np.angle(near)) < drive.half - _INSIDE]
+        if near.size == 0:
+            return usual
+        # arcs over a chord are the places of equal angle at which it is seen
+        seen = np.angle((end - near) / (end.conjugate() - near)) % TURN
+        return min(usual, float(np.min(end.real - end.imag / np.tan(0.5 * seen))))
+
+    @property
+    def overlap(self) -> float:
+        """How far a lip beside a slot reaches, on its way, into the disc at the edges of its arc [mm]; 0: not at all.
+
+        The lips of an internal wheel pass far from the edges.
+        """
+        if self.drive.sign < 0.0:
+            return 0.0
+        near = self._passing
+        into = self.locking * (1.0 - _INSIDE) - np.abs(near)
+        beyond = np.abs(near) * (np.abs(np.angle(near)) - self.drive.half)
+        return float(np.max(np.minimum(into, beyond), initial=0.0))
+
+    @cached_property
+    def _passing(self) -> Points:
+        """Points of the lips beside a slot while its pin drives them, seen from the crank, the pin on the x axis."""
+        drive, s = self.drive, self.drive.sign
+        f = np.linspace(-drive.half, drive.half, _INSTANTS)[:, None]
+        lip = np.linspace(math.asin(self.slot / self.tip), math.pi / drive.slots - self._arc_half, _PLACES)
+        lips = self.tip * units(np.concatenate([lip, -lip]))
+        turn = (math.pi if s > 0.0 else 0.0) - s * drive.rates(f, 0)[0]
+        return np.asarray(((s * drive.distance + lips * units(turn)) * units(-f)).ravel())
+
+
+def _seen(one: float, other: float, opposite: float) -> float:
+    """Angle of a triangle between two sides [rad]."""
+    return math.acos((one * one + other * other - opposite * opposite) / (2.0 * one * other))
+
+
+def _turned(curve: Callable[[Reals], Points], unit: complex, parameter: Reals) -> Points:
+    return unit * curve(parameter)
+
+
+def _straight(start: complex, end: complex, parameter: Reals) -> Points:
+    return np.asarray(start + parameter * (end - start), dtype=np.complex128)
+
+
 SIZES = ("crank_radius", "wheel_radius", "tip_radius", "slot_bottom_radius", "lip_thickness")
 PLAYS = ("wheel_backlash", "locking_play")
 MOTION = (
@@ -79,7 +445,6 @@ class GenevaDrive(RealSpeed, Design):
     @cached_property
     def drive(self) -> Geneva:
         """Its motion in closed form."""
-        from gearlink.core.machines.geneva.mechanism import Geneva
 
         sign = 1.0 if self.spec.type == "external" else -1.0
         return Geneva(self.spec.slots, self.spec.pins, self.spec.center_distance, sign)
@@ -94,7 +459,6 @@ class GenevaDrive(RealSpeed, Design):
 
     def outlines_with(self, locking: float) -> Outlines:
         """Wheel and driver with a locking disc of this radius [mm]."""
-        from gearlink.core.machines.geneva.bodies import Outlines
 
         return Outlines(self.drive, self._half_slot, locking, locking + self.spec.locking_clearance)
 
@@ -158,8 +522,6 @@ class GenevaDrive(RealSpeed, Design):
     @property
     def acceleration_ratio_max(self) -> float:
         """Maximum magnitude of the wheel's acceleration over the square of the crank's speed."""
-        import numpy as np
-
         return float(self.drive.rates(np.array([self.drive.peak_place]), 2)[2][0])
 
     acceleration_ratio_max_at: float = placed("drive.peak_place")
@@ -227,10 +589,6 @@ class GenevaDrive(RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The wheel over a revolution of the crank from a pin on the line of centres."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         phi = np.radians(degrees)
         (angle, speed, acceleration), moves, pin = self.drive.over(phi, 2)

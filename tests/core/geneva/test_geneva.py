@@ -17,8 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.machines.geneva.bodies import Outlines
-from gearlink.core.machines.geneva.mechanism import Geneva
+from gearlink.core.machines.geneva.design import Geneva, Outlines
 
 GIVEN: dict[str, Any] = {
     "kind": "geneva-drive",
