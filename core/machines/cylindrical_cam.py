@@ -75,6 +75,11 @@ class CylindricalCamSpec(OfFollowerKeys, TolerancedSpec):
         return self
 
 
+# The track of a cylindrical cam for a roller whose axis is radial: pressure angle, curvature, walls, exact in space.
+#
+# x is a place along the roller's axis, from the cam's axis on; ' is by the cam angle.
+
+
 @dataclass(frozen=True)
 class Drum:
     """A track on a drum.

@@ -43,6 +43,14 @@ _STANDS = 1e-12
 _CUT = 1e-9
 
 
+# A groove that a roller is held in: its profile by inversion of a prescribed motion, whatever carries the roller.
+#
+# P is the path of the roller's centre in the coordinates of the body with the groove, primes by the input angle; u the
+# direction in which the roller would go with the input held. N = i P'/|P'|, walls P +- r_g N,
+#
+#     pressure angle between N and u,   kappa = Im(conj(P') P'')/|P'|^3
+
+
 class Path(NamedTuple):
     """The roller's centre at input angles: P, P', P'' and u, (N,) complex arrays [mm]; u has any length."""
 

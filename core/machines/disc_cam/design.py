@@ -496,6 +496,12 @@ MILLIMETER = 1e-3
 RPM = math.pi / 30.0
 
 
+# What holds a follower on its cam: spring, preload, lift-off, width for the contact pressure.
+#
+# T = F0 + k s + m s'' Omega^2 - F_u - m g.u along the travel; oscillating: T0 + c s + J s'' Omega^2 - M about the
+# pivot.
+
+
 class Closing:
     """Forces along the lift [N, or N m], of a file with a spring."""
 

@@ -873,6 +873,12 @@ _STEPS = 60
 _GRID = 3600
 
 
+# The cam that opens the fingers on the arm: coaxial with the gripper's axis, it turns with the cylinder.
+#
+# Seen from the arm the cam turns by Theta = eps theta - s beta, which runs one way as long as |beta'| < 1: the fingers,
+# closed on the way out and open on the return stroke at the same swing, then have one angle at each angle of their cam.
+
+
 class FingerCam:
     """Fingers at the tip of the arm, a roller lever on the arm, and their cam.
 

@@ -65,6 +65,12 @@ _COARSE, _FINE = (120, 48), (360, 400)
 """Angles of a revolution and points of a piece of a contour, in the two rounds of the search."""
 
 
+# Twin cams on parallel shafts: two bodies of their own, geared one to one, each with its arm of the rocker.
+#
+# The rocker's axis D at 0, the first shaft at a_1 on the reference direction, the second at a_2 in the direction psi;
+# each roller arm lies on the line from D to its shaft at mid-swing.
+
+
 @dataclass(frozen=True)
 class ParallelShafts:
     """Both shafts, from the design; lengths in mm.
