@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.report import Table
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.rating.rated import Rated
-    from gearlink.core.parts.gears.rating.scuffing import Scuffing
+    from gearlink.core.parts.gears.rating.rated import Rated, Scuffing
 
 _1, _2, _3, _5, _6 = (f"ISO 6336-{part}" for part in (1, 2, 3, 5, 6))
 _SCUFFING = "ISO/TR 13989-2"

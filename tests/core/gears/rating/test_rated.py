@@ -21,8 +21,14 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
 from gearlink.core.parts.gears.rating.conditions import LimitLine, Point, damage, limit_line, safety_of
 from gearlink.core.parts.gears.rating.materials import CLASSES, STEELS, Endurance, gear_steel
-from gearlink.core.parts.gears.rating.rated import dynamic_constants, run_in, size_factor, slip_layer, surface_factor
-from gearlink.core.parts.gears.rating.scuffing import contact_ratio_factor
+from gearlink.core.parts.gears.rating.rated import (
+    contact_ratio_factor,
+    dynamic_constants,
+    run_in,
+    size_factor,
+    slip_layer,
+    surface_factor,
+)
 
 PAIR: dict[str, Any] = {
     "kind": "gear-pair",
