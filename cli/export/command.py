@@ -163,11 +163,11 @@ def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]
 
 def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
     if form is FileFormat.DXF:
-        from gearlink.cli.export.dxf import as_dxf
+        from gearlink.cli.export.drawings import as_dxf
 
         return as_dxf
     if form is FileFormat.SVG:
-        from gearlink.cli.export.svg import as_svg
+        from gearlink.cli.export.drawings import as_svg
 
         return as_svg
     if form is FileFormat.STEP:

@@ -24,9 +24,9 @@ from sweeps import mostly_slow
 
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import Contour, contour
+from gearlink.cli.export.drawings import bezier
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Stretch, TooFine, sample
-from gearlink.cli.export.svg import bezier
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
 from gearlink.core.parts.gears.tooth.involute import involute
@@ -528,7 +528,7 @@ def test_three_gears_share_the_idlers_form() -> None:
 
 
 def read_back(tmp_path: Path, design: Any, name: str, form: CurveForm) -> tuple[Contour, Any]:
-    from gearlink.cli.export.dxf import as_dxf
+    from gearlink.cli.export.drawings import as_dxf
 
     exported = made(design, name, form)
     path = tmp_path / "part.dxf"
