@@ -13,12 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from gearlink.cli import glossary
-from gearlink.cli.commands.verify import computed_digits, difference, limit
+from gearlink.cli.commands.verify import Outcome, computed, computed_digits, difference, limit
 from gearlink.cli.render.markdown_report import inline, markdown_table
 from gearlink.cli.texts import schema
 from gearlink.cli.texts.schema import Index, known_keys, worked_design
 from gearlink.cli.verification.cases import Case, Source, sources
-from gearlink.cli.verification.computing import Outcome, computed
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.nomenclature import ALIASES, TERMS

@@ -17,9 +17,9 @@ import pytest
 from docs import generate
 from gearlink.cli import completing
 from gearlink.cli.commands import verify
+from gearlink.cli.commands.verify import KERNELS, computed
 from gearlink.cli.verification import cases
 from gearlink.cli.verification.cases import Case, Source
-from gearlink.cli.verification.computing import KERNELS, computed
 
 ROOT = Path(__file__).resolve().parents[3]
 ALL: list[Source] = [cases.read(name) for name in cases.names()]
