@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from pydantic import Field
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.cam_drives.grooved import CamGear, CamLinkage
 from gearlink.core.machines.cam_drives.linked import LinkedCams
-from gearlink.core.machines.cam_drives.spec import CamGearSpec, CamLinkageSpec, LinkedCamsSpec
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.spec import Body, Loads
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.cam_drives.spec import CamGearSpec, CamLinkageSpec, LinkedCamsSpec
 
 _NOTHING = "masses; a part without an entry has no mass"
 

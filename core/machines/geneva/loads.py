@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from pydantic import Field
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.geneva.design import GenevaDrive
-from gearlink.core.machines.geneva.spec import GenevaDriveSpec
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.spec import Body, Loads
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.geneva.spec import GenevaDriveSpec
 
 
 class GenevaMasses(Spec):
