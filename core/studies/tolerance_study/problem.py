@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -103,6 +103,12 @@ class Problem:
         return sum(one.coordinates for one in self.sources)
 
     @cached_property
+    def judged_codes(self) -> frozenset[str]:
+        """Codes of the findings of the nominal design."""
+        checks = self.nominal.outline(self.base.command).checks
+        return frozenset(check.code for name in checks for check in self.nominal.check(name))
+
+    @cached_property
     def requirements(self) -> tuple[Condition, ...]:
         """The lines of `require`.
 
@@ -163,12 +169,9 @@ class Problem:
         ]
         if not asked:
             return
-        judged = {
-            check.code for name in self.nominal.outline(self.base.command).checks for check in self.nominal.check(name)
-        }
         left: dict[str, str] = {}
         for name in design.outline(command).checks:
-            left |= {check.code: name for check in design.check(name) if check.code not in judged}
+            left |= {check.code: name for check in design.check(name) if check.code not in self.judged_codes}
         for code, name in left.items():
             yield (
                 code,
@@ -299,7 +302,7 @@ def problem(spec: Any) -> Problem:
     try:
         given = Base(data, asked)
         base = _with_links(given)
-        nominal = base.design()
+        nominal = replace(base, warnings=True).design()
     except (Refused, NoSolution) as error:
         missing = error.code == MissingSection.code and section.command is not None
         raise NoSolution(str(error), key="tolerance.command" if missing else error.key) from error
@@ -312,7 +315,7 @@ def _with_links(base: Base) -> Base:
     """A synthesis, a search for a target or a rule is done once: what it finds becomes keys of the file."""
     found = list(base.design().as_found())
     command = "analyze" if base.command.startswith("synth") else base.command
-    return Base(base.changed((one.path, one.value) for one in found), command)
+    return Base(base.changed((one.path, one.value) for one in found), command, warnings=False)
 
 
 def no(code: str, message: str, *place: str | int) -> WrongStudy:

@@ -90,6 +90,8 @@ def _judged(made: Problem, points: Reals) -> Judged:
     found = evaluated(made, made.sizes(points))
     exists: Mask = found.refused == 0
     judged_by = {finding.code for finding in found.findings}
+    if not made.is_quick:  # a sample by itself finds no warnings, nor a code that has nothing else
+        judged_by |= made.judged_codes
     passes: dict[str, Mask] = {code: exists.copy() for code in made.base.codes if code in judged_by}
     for finding in found.findings:
         passes[finding.code] &= ~finding.fails
