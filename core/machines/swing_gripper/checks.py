@@ -273,11 +273,9 @@ def acceleration_step(design: SwingGripper) -> Iterator[Check]:
 
 
 def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
-    import numpy as np
-
     from gearlink.core.parts.cams.checks import step_check
 
-    peak = float(np.abs(design.motion.law.evaluate(np.arange(0.0, 360.0, 0.5), order)[order]).max())
+    peak = design.motion.law.peak(order)
     unit = "rad/rad" if order == 1 else "rad/rad^2"
     return step_check(rule, _jumps(design, order), peak, unit, bad, "take laws without end acceleration in laws")
 
@@ -285,7 +283,7 @@ def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
 def _jumps(design: SwingGripper, order: int) -> list[tuple[str, float]]:
     from gearlink.core.machines.swing_gripper.law import PHASES
 
-    jumps = design.motion.law.joints()[:, order]
+    jumps = design.motion.law.joints[:, order]
     return [(f"start of {phase}", float(jump)) for phase, jump in zip(PHASES, jumps, strict=True)]
 
 

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -466,19 +466,18 @@ class Closure:
     @cached_property
     def worst_unloading(self) -> tuple[Extreme, ...]:
         """Largest torque that lifts each roller [N m], and the cylinder angle [deg] of it."""
-        from gearlink.core.numerics.extremes import maximum_over
+        import numpy as np
 
-        signs = (-self.lift_sense, self.lift_sense)[: len(self.cams.discs)]
-        return tuple(
-            maximum_over(
-                lambda theta, roller=roller, sign=sign: sign * self.inertia_torques(theta)[roller],  # type: ignore[misc]
-                start=0.0,
-                end=360.0,
-                joints=self.motion.law.starts[1:-1],
-                samples=720,
-            )
-            for roller, sign in enumerate(signs)
-        )
+        from gearlink.core.numerics.extremes import extremes_over
+        from gearlink.core.numerics.together import kept_last
+
+        torques, sense = kept_last(self.inertia_torques), self.lift_sense
+
+        def lifting(roller: int, theta: Reals) -> Reals:
+            return np.asarray((sense if roller else -sense) * torques(theta)[roller])
+
+        wanted = [(partial(lifting, roller), True) for roller in range(len(self.cams.discs))]
+        return tuple(extremes_over(wanted, 0.0, 360.0, joints=self.motion.law.starts[1:-1], samples=720))
 
     @cached_property
     def lift_off_speed(self) -> float | None:
@@ -782,10 +781,10 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         )
 
     def varied(self, spec: SwingGripperSpec) -> SwingGripper:
-        """The design of another file; law and linkage are kept where it differs in the cams alone."""
+        """The design of another file; law and linkage are kept where it differs in the cams alone, else the law."""
         made = type(self)(spec)
-        if all(name in _NOT_OF_MOTION or value == getattr(self.spec, name) for name, value in spec):
-            made.motion = self.motion
+        same = all(name in _NOT_OF_MOTION or value == getattr(self.spec, name) for name, value in spec)
+        made.motion = self.motion if same else self.motion.varied(spec)
         return made
 
     def prepare(self, quantities: Iterable[str]) -> None:

@@ -8,6 +8,7 @@ follows from w and the phase lengths.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -22,6 +23,10 @@ from gearlink.core.parts.cams.laws import Law
 
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
 _NEAR_DWELL = 5
+_HALF_DEGREES = np.arange(0.0, 360.0, 0.5)
+_HALF_DEGREES.flags.writeable = False
+_MOST_KEPT = 16
+"""Grids at which a law is kept."""
 
 
 class SixPhases(NamedTuple):
@@ -114,6 +119,10 @@ class SixPhaseLaw:
         moving = (("accelerate", self.accelerate), ("decelerate", self.decelerate), ("return", self.return_))
         return tuple(phase for phase, law in moving if math.isinf(law.peak_jerk))
 
+    def peak(self, order: int) -> float:
+        """Largest magnitude of a derivative of the swing by theta, every half degree."""
+        return float(np.abs(self.evaluate(_HALF_DEGREES, order)[order]).max())
+
     def reaches(self, swing: float) -> float:
         """Cylinder angle [deg] at which the working stroke has the swing [rad], from 0 to the total swing."""
         ends = (-swing, self.total_swing - swing)
@@ -134,7 +143,35 @@ class SixPhaseLaw:
             order : 0..3
         Returns
             beta[, beta'[, beta''[, beta''']]] : (N,) arrays [rad], per radian of theta
+        Notes
+            At an array that cannot be written to, the grid of a search, it is kept: designs of a study share the law.
         """
+        if isinstance(degrees, np.ndarray) and not degrees.flags.writeable:
+            return self._kept_at(degrees, order, lambda: self._evaluate(degrees, order))
+        return self._evaluate(degrees, order)
+
+    def over(self, angles: Reals, order: int = 2) -> tuple[Reals, ...]:
+        """The same at cylinder angles [rad]."""
+        if angles.flags.writeable:
+            return self._evaluate(np.degrees(angles), order)
+        return self._kept_at(angles, order, lambda: self._evaluate(np.degrees(angles), order))
+
+    def _kept_at(self, grid: Reals, order: int, compute: Callable[[], tuple[Reals, ...]]) -> tuple[Reals, ...]:
+        last = self._kept.get(id(grid))
+        if last is None or last[0] is not grid or len(last[1]) <= order:
+            last = grid, compute()
+            for values in last[1]:
+                values.flags.writeable = False
+            if len(self._kept) < _MOST_KEPT:
+                self._kept[id(grid)] = last
+        return last[1][: order + 1]
+
+    @cached_property
+    def _kept(self) -> dict[int, tuple[Reals, tuple[Reals, ...]]]:
+        """By grid, which is held so that no other array has its number."""
+        return {}
+
+    def _evaluate(self, degrees: Any, order: int) -> tuple[Reals, ...]:
         theta = np.fmod(np.atleast_1d(np.asarray(degrees, dtype=np.float64)), 360.0)
         phase = self.phase(theta)
         out = tuple(np.zeros_like(theta) for _ in range(order + 1))
@@ -166,6 +203,7 @@ class SixPhaseLaw:
         level = top if index == 3 else 0.0
         return (np.full_like(u, level), *(np.zeros_like(u) for _ in range(order)))
 
+    @cached_property
     def joints(self) -> Reals:
         """Jumps of beta and its three derivatives at the six joints, (6, 4); row i is the start of phase i."""
         before = [np.array([x[0] for x in self.in_phase((i - 1) % 6, np.array([1.0]), 3)]) for i in range(6)]

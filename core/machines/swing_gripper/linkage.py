@@ -116,7 +116,7 @@ class GripperLinkage:
         place = 0 if angles.flags.writeable else id(angles)
         last = self._kept.get(place)
         if last is None or angles is not last[0] or order > last[1]:
-            last = angles, order, self.motion(np.degrees(angles), order)
+            last = angles, order, self.at(np.degrees(angles), self.law.over(angles, order))
             if place == 0 or len(self._kept) < _MOST_KEPT:
                 self._kept[place] = last
         return last[2]

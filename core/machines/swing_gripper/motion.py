@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
@@ -21,6 +22,30 @@ if TYPE_CHECKING:
 
 _STATED = 1e-6
 _TURN = 2.0 * math.pi
+_OF_LAW = ("shaft_speed", "phases", "phase_angles", "_drive", "law")
+_NOT_OF_LAW = {
+    "name",
+    "links",
+    "pivots",
+    "output_direction",
+    "swing_sense",
+    "assembly",
+    "cam",
+    "size",
+    "spring",
+    "inertia",
+}
+"""Keys of the file that the law does not know."""
+
+
+@cache
+def _every_degree() -> Reals:
+    """One array for all designs: a law that they share is kept for it."""
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees = turn_degrees()
+    degrees.flags.writeable = False
+    return degrees
 
 
 def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
@@ -36,6 +61,13 @@ class Motion:
 
     def __init__(self, spec: SwingGripperSpec) -> None:
         self.spec = spec
+
+    def varied(self, spec: SwingGripperSpec) -> Motion:
+        """The motion of another file; what follows from its law alone is kept where that is the same."""
+        made = Motion(spec)
+        if all(name in _NOT_OF_LAW or value == getattr(self.spec, name) for name, value in spec):
+            vars(made).update({name: value for name, value in vars(self).items() if name in _OF_LAW})
+        return made
 
     @cached_property
     def shaft_speed(self) -> float:
@@ -249,8 +281,10 @@ class Motion:
     def loop_at(self, samples: int | None = None) -> tuple[Reals, TwoWays]:
         """Cylinder angles in degrees, and closed form against Newton-Raphson there."""
         from gearlink.core.machines.swing_gripper.linkage import two_ways
+        from gearlink.core.numerics.arrays import turn_degrees
 
-        degrees, motion = self.rows(samples)
+        degrees = turn_degrees(samples) if samples else _every_degree()
+        motion = self.linkage.motion(degrees, 0)
         return degrees, two_ways(self.linkage, motion)
 
     @property

@@ -82,7 +82,7 @@ def test_every_derivative_integrates_to_the_one_before(phase: int, order: int) -
 def test_joints_are_continuous_for_every_run_up(run_up: object) -> None:
     motion = made(run_up, run_up)
     for order in range(3):
-        assert np.abs(motion.joints()[:, order]).max() <= 16 * EPS * peaks(motion)[order]
+        assert np.abs(motion.joints[:, order]).max() <= 16 * EPS * peaks(motion)[order]
 
 
 @pytest.mark.quick(3)
@@ -90,17 +90,17 @@ def test_joints_are_continuous_for_every_run_up(run_up: object) -> None:
 def test_joints_are_continuous_for_every_return(rise: str) -> None:
     motion = made(return_=rise)
     for order in range(3):
-        assert np.abs(motion.joints()[:, order]).max() <= 16 * EPS * peaks(motion)[order]
+        assert np.abs(motion.joints[:, order]).max() <= 16 * EPS * peaks(motion)[order]
 
 
 def test_a_step_of_the_jerk_is_told() -> None:
     # The half-cycloidal law ends at the constant speed with j = -pi^2/2, at the dwell with +pi^2/2 by w/D^2.
-    jumps = EXAMPLE.joints()[:, 3]
+    jumps = EXAMPLE.joints[:, 3]
     span = math.radians(50.0)
     assert jumps[PHASES.index("decelerate")] == pytest.approx(-0.45 * math.pi**2 / 2 / span**2, rel=1e-14, abs=0.0)
     assert jumps[PHASES.index("constant")] == 0.0
     smooth = made("velocity-4567", {"septic": 0.5}, "polynomial-4567")
-    assert np.abs(smooth.joints()[:, 3]).max() <= 64 * EPS * peaks(smooth)[3]
+    assert np.abs(smooth.joints[:, 3]).max() <= 64 * EPS * peaks(smooth)[3]
 
 
 def test_the_constant_phase_runs_at_exactly_the_speed() -> None:
