@@ -195,8 +195,8 @@ def run_explain(subject: str | None, format: Format) -> int:
 def find(subject: str) -> list[Topic]:
     """Every topic of a name, the terms of the field first; blanks, hyphens, underscores and case do not matter."""
     subject = " ".join(subject.split())
-    if re.fullmatch(r"(?i)GL\d{3}", subject):  # no term is written so
-        return _program_names(subject)
+    if re.fullmatch(r"(?i)GL\d{3}", subject):  # no term is written so, and no key
+        return list(_topics(subject.upper()))
     from gearlink.cli.glossary import meanings_of, named_places, named_terms
 
     found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
@@ -289,7 +289,7 @@ def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
     from gearlink.cli.texts.written_design import choice, uncapitalised
 
-    for key, kinds in known_keys():
+    for key, kinds in known_keys(name.rpartition(".")[2]):
         section, dot, last = key.path.rpartition(".")
         if name not in (key.path, last, *key.also, *(f"{section}{dot}{term}" for term in key.also)):
             continue

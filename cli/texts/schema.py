@@ -163,11 +163,16 @@ class SpecKey:
     also: tuple[str, ...] = ()
 
 
-def spec_keys(kind: Kind) -> list[SpecKey]:
-    """The keys of a kind in the order of its model, sections before what they hold, each once."""
+def spec_keys(kind: Kind, last: str = "") -> list[SpecKey]:
+    """The keys of a kind in the order of its model, sections before what they hold, each once.
+
+    Parameters
+        kind : Kind
+        last : str - the last word of those that are wanted, or a standard term of theirs; all where it is empty
+    """
     schema = kind_schema(kind)
     found: dict[str, SpecKey] = {}
-    for key in _keys(schema, schema["definitions"], ""):
+    for key in _keys(schema, schema["definitions"], "", last):
         before = found.setdefault(key.path, key)
         if key.range != before.range:  # `type` of a section that has several
             either = [*before.range.split(" or "), *key.range.split(" or ")] if before.range and key.range else []
@@ -175,25 +180,26 @@ def spec_keys(kind: Kind) -> list[SpecKey]:
     return list(found.values())
 
 
-def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
+def _keys(section: Node, definitions: Node, before: str, last: str) -> Iterator[SpecKey]:
     required = {*section.get("required", ()), *_either(section)}
     for name, node in section.get("properties", {}).items():
         if "aliasOf" in node:
             continue
         path = before + name
         inner = list(_sections(node, definitions))
-        yield SpecKey(
-            path,
-            node.get("unit", ""),
-            node.get("description", "").removesuffix(f" [{node.get('unit')}]"),
-            _range(node),
-            node.get("default"),
-            name in required,
-            bool(inner),
-            tuple(node.get("also", ())),
-        )
+        if not last or last == name or last in node.get("also", ()):
+            yield SpecKey(
+                path,
+                node.get("unit", ""),
+                node.get("description", "").removesuffix(f" [{node.get('unit')}]"),
+                _range(node),
+                node.get("default"),
+                name in required,
+                bool(inner),
+                tuple(node.get("also", ())),
+            )
         for part in inner:
-            yield from _keys(part, definitions, path + ".")
+            yield from _keys(part, definitions, path + ".", last)
 
 
 def _either(section: Node) -> Iterator[str]:
@@ -233,13 +239,13 @@ def _narrowest(node: Node, bounds: tuple[tuple[str, str], ...], sign: float) -> 
 
 
 @cache
-def known_keys() -> list[tuple[SpecKey, list[str]]]:
-    """Each key of files with the kinds that have it in the same words and range."""
+def known_keys(last: str = "") -> list[tuple[SpecKey, list[str]]]:
+    """Each key of files, or each with a last word, with the kinds that have it in the same words and range."""
     from gearlink.core.base.kinds import FILES
 
     found: dict[tuple[str, str, str], tuple[SpecKey, list[str]]] = {}
     for kind in FILES.values():
-        for key in spec_keys(kind):
+        for key in spec_keys(kind, last):
             if key.path != "kind":
                 found.setdefault((key.path, key.words, key.range), (key, []))[1].append(kind.name)
     return list(found.values())
