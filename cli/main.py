@@ -51,12 +51,21 @@ def _prepare_process() -> None:
     limited. A size of the terminal that is no size counts as none.
     """
     process.collect_rarely()
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
+    if os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1") == "1":
+        _leave_plugins_out()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ["MPLBACKEND"] = "agg"
     for name in ("COLUMNS", "LINES"):
         if (size := os.environ.get(name, "")).isdigit() and not (size.isdecimal() and len(size) <= _MOST_DIGITS):
             del os.environ[name]  # rich takes 2 squared for a number, and so many digits that Python refuses them
+
+
+def _leave_plugins_out() -> None:
+    """Have pydantic find no plug-ins: even where it is told to, it imports what reads the metadata of packages, with
+    email, sockets and archives, which takes a tenth of a command."""
+    finder = type(sys)("pydantic.plugin._loader")
+    finder.get_plugins = tuple  # type: ignore[attr-defined]
+    sys.modules.setdefault(finder.__name__, finder)
 
 
 class _Output(io.FileIO):

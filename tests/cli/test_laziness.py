@@ -192,6 +192,16 @@ def test_what_is_known_of_files_needs_no_models(lines: list[str], besides: set[s
     assert not {m for m in modules if m.startswith("gearlink.core.") and m.endswith((".spec", ".design"))}
 
 
+@pytest.mark.slow
+def test_reading_a_file_imports_no_metadata_of_packages() -> None:
+    """pydantic looks for plug-ins when it makes its first model, and leaves it where the process says so."""
+    line = [sys.executable, "-X", "importtime", "-m", "gearlink", "gear", "designs/ty460_input_gears.yaml", "-q"]
+    done = subprocess.run(line, capture_output=True, text=True, cwd=ROOT, check=True)
+    modules = {shown.rpartition("|")[2].strip() for shown in done.stderr.splitlines()}
+    assert "pydantic.plugin._schema_validator" in modules
+    assert not modules & {"importlib.metadata", "email", "socket", "zipfile"}
+
+
 def test_version_imports_no_typer() -> None:
     modules = loaded_after(*VERSION)
     assert installed(modules) <= {"gearlink"}
