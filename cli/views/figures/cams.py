@@ -126,7 +126,8 @@ def build_cylindrical(design: CylindricalCamDesign, fraction: Reals) -> Scene:
         -drum.sense * arc + 1j * along for arc, along in (drum.developed(drum.bottom, s, phi) for s in (1, -1))
     )
     outline = np.concatenate((upper, lower[::-1], upper[:1]))
-    place = track(drum.sense * drum.bottom * _TURN * fraction + 0j, fraction)
+    # after a turn the track stands where it stood, and a loop ends as it began
+    place = drum.sense * drum.bottom * _TURN * np.mod(np.asarray(fraction), 1.0) + 0j
     level, center = np.zeros_like(fraction), 1j * design.follower_motion.evaluate(_TURN * fraction, 0)[0]
     parts = (
         Body(outline=outline, place=place, turn=level, color=BLUE, fill=pale(BLUE, 0.15), width=1.4),

@@ -123,8 +123,9 @@ def _moved(part: Part, scale: float, shift: complex) -> Part:
         return replace(part, joints=tuple(scale * joint + shift for joint in part.joints), width=0.7 * part.width)
     if isinstance(part, Arrow):
         return replace(part, start=scale * part.start + shift, vector=scale * part.vector)
+    turn = np.unwrap(part.turn, period=2.0 * math.pi / max(part.repeats, 1))  # its loop may end within the cycle
     body: Body = replace(part, outline=scale * part.outline, place=scale * part.place + shift, pitch=scale * part.pitch)
-    return replace(body, label="", name="")
+    return replace(body, turn=turn, label="", name="")
 
 
 def _shown(design: Machine, name: str, degrees: Reals) -> tuple[Reals, str]:
