@@ -359,12 +359,12 @@ def _collision(axes: Axes, design: ThreeGearFourBar) -> None:
     assert gap is not None, "external gears have a gap"
     r1, r5 = first.tip_radius[0], second.tip_radius[1]
     both = _overlap(complex(design.crank_length), r1, complex(frame), r5)
-    style.area(axes, both, color=style.RED, linewidth=0, zorder=6, gid="collision")
+    style.area(axes, both, color=style.WRONG, linewidth=0, zorder=6, gid="collision")
     where = (frame - math.copysign(r5, frame - design.crank_length), 0.0)
-    shape = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 0.9}
-    look: dict[str, Any] = {"color": style.RED, "fontsize": 8, "ha": "center", "arrowprops": shape, "zorder": 8}
+    shape = {"arrowstyle": "-|>", "color": style.WRONG, "linewidth": 0.9}
+    look: dict[str, Any] = {"color": style.WRONG, "fontsize": 8, "ha": "center", "arrowprops": shape, "zorder": 8}
     axes.annotate("collision", where, (0, -62), textcoords="offset points", path_effects=style.outlined(), **look)
-    axes.fill([], [], color=style.RED, label=f"gears 1 and 5 collide by {-gap:.4g} mm")
+    axes.fill([], [], color=style.WRONG, label=f"gears 1 and 5 collide by {-gap:.4g} mm")
 
 
 def _overlap(center_1: complex, radius_1: float, center_2: complex, radius_2: float) -> Any:

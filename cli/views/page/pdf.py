@@ -170,7 +170,8 @@ def _page(lines: Sequence[Line], foot: str) -> Figure:
             style |= {"fontsize": 1.25 * _SIZE, "family": "sans-serif", "fontweight": "bold"}
         elif look in ("bold", "fail", "warn"):
             style |= {"fontweight": "bold", "color": _RED if look == "fail" else "#222222"}
+        raised = 0.25 * step if look == "head" else 0.0  # its letters are larger than the line
         if words:
-            made.text(0.07, top - row * step, words.replace("$", r"\$"), **style)
+            made.text(0.07, top - row * step + raised, words.replace("$", r"\$"), **style)
     made.text(0.93, 0.35 / _A4[1], foot.replace("$", r"\$"), fontsize=6.5, ha="right", color="#777777")
     return made

@@ -182,7 +182,7 @@ def _key_results(reports: Sequence[Report]) -> Iterator[str]:
         )
         if report.key:
             heads = (f"key results of {report.command}", "value", "unit", "required", "name")
-            yield "\n" + table(heads, rows, numeric=(1,))
+            yield f'\n<div class="results">{table(heads, rows, numeric=(1,))}</div>'
     found = [(c.status, f"{c.code} {c.name}", "\n".join(c.lines)) for r in reports for c in r.checks]
     found = sorted((row for row in found if row[0] != "pass"), key=lambda row: row[0])
     if found:

@@ -14,10 +14,12 @@ import numpy as np
 import pytest
 import yaml
 from factory import design
+from matplotlib.colors import to_rgba
 from sheets import curve, lines, odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 from sweeps import mostly_slow
 
 from gearlink.cli.options import Options
+from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.three_gear_four_bar import dwell_position
 from gearlink.cli.views.figures.write import write_plot
 from gearlink.core.parts.linkages.fourbar.position import solve
@@ -123,6 +125,7 @@ def test_position_drawn_is_the_dwell():
 def test_collision_is_shown_where_there_is_one():
     (red,) = tagged(sheet(data(PRINTED)).figure, "collision")
     z = points(red)
+    assert red.get_facecolor() == to_rgba(style.WRONG), "as all that fails"
     assert z.real.max() - z.real.min() == pytest.approx(1.6, abs=1e-3)
     assert np.abs(z - 18.0).max() < 27.5 * (1 + 1e-12)
     assert np.abs(z - 121.4).max() < 77.5 * (1 + 1e-12)

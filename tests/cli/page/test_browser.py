@@ -57,6 +57,9 @@ def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width
     inked = (
         "const c = document.querySelector('.{0}'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
     )
+    # The names that programs use are there where they have room, so that no word is broken into letters.
+    heads = "[...document.querySelector('.results tr').cells].filter(cell => cell.offsetWidth).length"
+    assert window.run(f"return {heads}") == (4 if width < 600 else 5)
     for canvas in ("stage", "strip"):
         assert window.run(inked.format(canvas) + "return d.some(value => value < 200)")
     assert window.problems() == []
