@@ -106,7 +106,7 @@ def test_letters_keep_off_the_links():
     for name, joint in zip("ABCD", joints, strict=True):
         (letter,) = [text for text in axes.texts if text.get_text() == name]
         away = complex(*letter.get_position())
-        assert abs(away) == pytest.approx(11.5, rel=1e-12)
+        assert 11.5 * (1.0 - 1e-12) <= abs(away) < 16.0, "no nearer, and not moved far by other words"
         for other in joints[[abs(joints - joint).argsort()[1]]]:
             # Not over the nearest joint's link: at least 40 degrees beside it.
             assert abs(cmath.phase(away / (other - joint))) > math.radians(40.0)
