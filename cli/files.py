@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import stat
+import sys
 from contextlib import contextmanager, suppress
 
 from gearlink.cli import process
@@ -129,7 +130,9 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     except (FileExistsError, NotADirectoryError) as error:
         raise CannotWrite(f"cannot write {path}: {path.parent} is no folder") from error
     except OSError as error:
-        raise CannotWrite(f"cannot write {path}: {error.strerror or error}") from error
+        # Windows moves nothing to a name that a program has open, such as a viewer or a spreadsheet.
+        shown = "\nclose the program that shows it" if sys.platform == "win32" and path.is_file() else ""
+        raise CannotWrite(f"cannot write {path}: {error.strerror or error}{shown}") from error
 
 
 @contextmanager

@@ -16,6 +16,7 @@ _LEAST_MEMORY = 500 << 20
 """Below it some commands cannot load their libraries."""
 _COMPLETES = "_GEARLINK_COMPLETE"
 _NO_READER_OF_WINDOWS = 22
+_HEEDS_ESCAPES = 4  # ENABLE_VIRTUAL_TERMINAL_PROCESSING
 """EINVAL: what a pipe says there whose reader has gone; elsewhere that is a BrokenPipeError."""
 _MOST_DIGITS = 9
 """Of the size of a terminal."""
@@ -91,10 +92,22 @@ def _output(stream: TextIO, ignored: type[OSError]) -> TextIO:
     if stream is None or (sys.platform == "win32" and stream.isatty()):
         # Closed by the parent; or a console of Windows, whose stream alone shows every sign: bytes of a descriptor are
         # taken there for those of an old code page.
+        if stream is not None:
+            _heed_escapes(stream.fileno())
         return stream
     raw = _Output(stream.fileno(), "w", closefd=False)
     raw.ignored = ignored
     return io.TextIOWrapper(io.BufferedWriter(raw), encoding=stream.encoding, line_buffering=stream.isatty())
+
+
+def _heed_escapes(number: int) -> None:
+    """Let a console of Windows 10 and later heed the codes of colours and of a line that is taken back."""
+    import ctypes
+
+    kernel: Any = ctypes.windll.kernel32  # type: ignore[attr-defined]
+    handle, mode = kernel.GetStdHandle(-10 - number), ctypes.c_ulong()
+    if kernel.GetConsoleMode(handle, ctypes.byref(mode)):
+        kernel.SetConsoleMode(handle, mode.value | _HEEDS_ESCAPES)
 
 
 def run(arguments: list[str]) -> int:

@@ -179,7 +179,12 @@ if hasattr(os, "register_at_fork"):
 
 
 def _write(text: str) -> None:
-    """Past the stream, which may be in the middle of something, where it has a descriptor."""
+    """Past the stream, which may be in the middle of something, where it has a descriptor; not to a console of Windows,
+    which takes bytes for those of an old code page."""
+    if sys.platform == "win32" and sys.stderr.isatty():
+        sys.stderr.write(text)
+        sys.stderr.flush()
+        return
     try:
         descriptor = sys.stderr.fileno()
     except (OSError, ValueError):

@@ -139,6 +139,7 @@ class _Server(ThreadingHTTPServer):
 
     def __init__(self, *given: Any) -> None:
         self._room = threading.BoundedSemaphore(_MOST_READERS)
+        self.allow_reuse_address = sys.platform != "win32"  # where it would take the port of a server that runs
         super().__init__(*given)
 
     def process_request(self, request: Any, client_address: Any) -> None:

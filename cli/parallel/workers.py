@@ -27,6 +27,8 @@ _GRACE_SECONDS = 1.0
 _AGAIN_SECONDS = 0.05
 # Forked processes are all there from the first call on; others are started as they are needed, and looked for.
 _SPAWNED_SECONDS = None if sys.platform == "linux" else 1.0
+_MOST_OF_WINDOWS = 61
+"""Processes that one process can wait for there."""
 P = ParamSpec("P")
 T = TypeVar("T")
 
@@ -36,9 +38,11 @@ def workers(count: int) -> Iterator[Executor]:
     """An executor of `count` processes; what raises out of the block ends them at once.
 
     Notes
-        A forked process has every module loaded already; other systems than Linux start theirs anew.
+        A forked process has every module loaded already; other systems than Linux start theirs anew, Windows 61 at
+        most.
     """
     context = get_context("fork" if sys.platform == "linux" else None)
+    count = min(count, _MOST_OF_WINDOWS) if sys.platform == "win32" else count
     pool = _Workers(count, mp_context=context, initializer=_begin)
     results = pool._result_queue
     _close_by_one(results._writer)  # type: ignore[attr-defined]

@@ -1,26 +1,34 @@
 """What Windows and macOS have otherwise, as far as it can be simulated here: the CI runs all tests on them.
 
 No signals of Unix, no fork, no files without a name, no module `resource`; texts in the code page of a console; a
-default encoding that is not UTF-8; a pipe whose end is another error.
+default encoding that is not UTF-8; a pipe whose end is another error; a console that must be told of escape codes; few
+processes to wait for; ports that two servers may have; files that another program holds.
 """
 
 from __future__ import annotations
 
+import ctypes
+import errno
 import os
 import subprocess
 import sys
+from http.server import BaseHTTPRequestHandler
 from pathlib import Path, PureWindowsPath
 from types import SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
+from gearlink.cli import files, progress
 from gearlink.cli import main as program
 from gearlink.cli.batch import summary
 from gearlink.cli.batch.summary import Outcome
+from gearlink.cli.commands import watch
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.parallel import shares, workers
 from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.views.films import raster
 
 ROOT = Path(__file__).resolve().parents[2]
 FEED = "designs/standing_feed.yaml"
@@ -103,11 +111,85 @@ def test_a_console_of_another_code_page_gets_signs_that_it_has(encoding: str, wo
     assert (ended.stdout + ended.stderr).decode(encoding)
 
 
-def test_a_console_of_windows_keeps_its_own_stream(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It writes UTF-16; bytes put past it would be shown in an old code page."""
-    stream: Any = SimpleNamespace(isatty=lambda: True)
+class _Kernel:
+    """Handles and modes of a console of Windows, as `ctypes` reaches them."""
+
+    def __init__(self) -> None:
+        self.modes: dict[int, int] = {-11: 3}
+
+    def GetStdHandle(self, number: int) -> int:
+        return number
+
+    def GetConsoleMode(self, handle: int, mode: Any) -> int:
+        mode._obj.value = self.modes.get(handle, 0)
+        return int(handle in self.modes)
+
+    def SetConsoleMode(self, handle: int, mode: int) -> None:
+        self.modes[handle] = mode
+
+
+@pytest.mark.parametrize(("number", "modes"), [(1, {-11: 7}), (2, {-11: 3})])
+def test_a_console_of_windows_keeps_its_own_stream_and_heeds_colours(
+    number: int, modes: dict[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It writes UTF-16; bytes put past it would be shown in an old code page. What is no console has no mode."""
+    kernel = _Kernel()
+    monkeypatch.setattr(ctypes, "windll", SimpleNamespace(kernel32=kernel), raising=False)
+    stream: Any = SimpleNamespace(isatty=lambda: True, fileno=lambda: number)
     monkeypatch.setattr(program, "sys", SimpleNamespace(platform="win32"))
     assert program._output(stream, BrokenPipeError) is stream
+    assert kernel.modes == modes
+
+
+def test_progress_on_a_console_of_windows_goes_through_its_stream(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+    stream = SimpleNamespace(isatty=lambda: True, write=shown.append, flush=lambda: None, fileno=lambda: 1 / 0)
+    monkeypatch.setattr(progress, "sys", SimpleNamespace(platform="win32", stderr=stream))
+    progress._write("drawing Bogenzuführung")
+    assert shown == ["drawing Bogenzuführung"]
+
+
+def test_windows_waits_for_61_processes_at_most(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A larger pool is a ValueError there, on a machine with more processors too."""
+    monkeypatch.setattr(workers, "sys", SimpleNamespace(platform="win32"))
+    with workers.workers(96) as pool:
+        assert pool._max_workers == 61  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("number", [errno.EINVAL, errno.EPIPE])
+def test_ffmpeg_that_has_ended_is_heard_on_windows_too(number: int) -> None:
+    """A pipe that nobody reads answers EINVAL there; any other error ends ffmpeg and is shown."""
+    pipe = SimpleNamespace(write=Mock(side_effect=OSError(number, "x")), close=Mock(side_effect=OSError(number, "x")))
+    running: Any = SimpleNamespace(stdin=pipe, kill=Mock())
+    pictures: Any = SimpleNamespace(picture=lambda _: SimpleNamespace(tobytes=lambda: b""))
+    raster._feed(running, pictures, range(3))
+    running.kill.assert_not_called()
+    pipe.write.side_effect = OSError(errno.ENOSPC, "full")
+    with pytest.raises(OSError, match="full"):
+        raster._feed(running, pictures, range(3))
+    running.kill.assert_called_once()
+
+
+@pytest.mark.parametrize("system", ["win32", "linux"])
+def test_watch_takes_no_port_of_another_server(system: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With SO_REUSEADDR Windows would let it; elsewhere the option frees a port whose server has just ended."""
+    monkeypatch.setattr(watch, "sys", SimpleNamespace(platform=system))
+    with watch._Server(("127.0.0.1", 0), BaseHTTPRequestHandler) as server:
+        assert server.allow_reuse_address is (system != "win32")
+
+
+@pytest.mark.parametrize(("system", "hint"), [("win32", True), ("linux", False)])
+def test_a_file_that_a_viewer_has_open(
+    system: str, hint: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows moves nothing to its name."""
+    (tmp_path / "feed.pdf").write_bytes(b"old")
+    monkeypatch.setattr(files.os, "replace", Mock(side_effect=PermissionError(13, "Access is denied")))
+    monkeypatch.setattr(files, "sys", SimpleNamespace(platform=system))
+    with pytest.raises(files.CannotWrite, match="Access is denied") as refused:
+        files.write_atomically(tmp_path / "feed.pdf", lambda stream: stream.write(b"new"))
+    assert ("close the program that shows it" in str(refused.value)) is hint
+    assert [path.name for path in tmp_path.iterdir()] == ["feed.pdf"]
 
 
 @pytest.mark.parametrize(("system", "ends"), [("win32", True), ("linux", False)])

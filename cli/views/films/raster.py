@@ -6,6 +6,7 @@ one palette for all of its pictures, and times that add up to the length of the 
 
 from __future__ import annotations
 
+import errno
 import re
 import shutil
 import subprocess
@@ -13,7 +14,6 @@ import sys
 import tempfile
 from collections import deque
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.util import find_spec
@@ -550,11 +550,18 @@ def _feed(running: subprocess.Popen[bytes], raster: Raster, counted: Iterable[in
     try:
         for i in counted:
             running.stdin.write(raster.picture(i).tobytes())
-    except BrokenPipeError:
-        pass  # ffmpeg has ended early; its status and last words say why
-    except BaseException:
-        running.kill()
-        raise
+    except BaseException as error:
+        if not _no_reader(error):  # else ffmpeg has ended early; its status and last words say why
+            running.kill()
+            raise
     finally:
-        with suppress(BrokenPipeError):
+        try:
             running.stdin.close()
+        except OSError as error:
+            if not _no_reader(error):
+                raise
+
+
+def _no_reader(error: BaseException) -> bool:
+    """Whether nobody reads a pipe any more, which Windows says in another way than others."""
+    return isinstance(error, BrokenPipeError) or (isinstance(error, OSError) and error.errno == errno.EINVAL)
