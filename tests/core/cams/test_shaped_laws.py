@@ -422,7 +422,7 @@ def test_a_gripper_reaches_its_speed_by_laws_of_its_own() -> None:
     usual, law_ = factory.design("swing_gripper").motion.law, made.motion.law
     assert law_.accelerate.kappa == pytest.approx(0.5, rel=1e-12)
     assert law_.accelerate.peak_acceleration < usual.accelerate.peak_acceleration
-    assert law_.joints()[:, :3] == pytest.approx(np.zeros((6, 3)), abs=1e-10)
+    assert law_.joints[:, :3] == pytest.approx(np.zeros((6, 3)), abs=1e-10)
     # one revolution a sheet, 12000 an hour: the return takes 120/360 of 0.3 s
     assert law_.return_.shaping.periods == pytest.approx(50.0 * 0.1, rel=1e-12)
     assert [check.status for name in ("law-gap", "polydyne-range") for check in made.check(name)] == ["pass", "pass"]
