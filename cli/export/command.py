@@ -45,7 +45,8 @@ def run_export(source: str, asked: Export) -> int:
     """
     try:
         loaded, kind = open_design(source, asked.options)
-        if kind.name not in (known := parts.kinds()):
+        paths = bool(kind.motion) and any(name.startswith(parts.PATH) for name in asked.parts)
+        if kind.name not in (known := parts.kinds()) and not paths:
             raise wrong_kind(loaded, f"a {kind.name} has no profile to export; kinds that have one: {first_of(known)}")
         spec = read_spec(loaded, kind, source)
         design = whole_design(kind, spec)
@@ -115,7 +116,7 @@ def _contours(design: Any, asked: Export, curve: CurveForm) -> list[Contour]:
     """The sampled parts."""
     from gearlink.cli.export.contour import contour
 
-    made = parts.makers(design)
+    made = parts.makers(design, asked.parts)
     also = (CONTOUR,) if design.kind == "gear-pair" else ()
     return [contour(made[name](), asked.tolerance, curve) for name in _names(asked.parts, tuple(made), also)]
 
@@ -265,7 +266,8 @@ _HEADS = {
     "PITCH_CURVE": ("pitch_x [mm]", "pitch_y [mm]"),
     "PATH": ("x [mm]", "y [mm]"),
 }
-_LEADING = ("k", "cam_angle [deg]", "input_angle [deg]", "input_position [mm]")
+_INPUTS = ("cam_angle", "input_angle", "crank_angle", "carrier_angle", "theta")
+_LEADING = ("k", *(f"{name} [deg]" for name in _INPUTS), "input_position [mm]")
 
 
 def as_csv(contour: Contour, spec: Any) -> bytes:

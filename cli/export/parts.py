@@ -18,6 +18,7 @@ from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
+from gearlink.core.mechanism.vectors import Place, place_of, rates_of
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.checks import undercut_checks
 from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -31,20 +32,24 @@ from gearlink.core.parts.gears.tooth.teeth import rim_radius
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
     from gearlink.core.machines.wide_swing.strokes import AnyCam
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.parts.cams.flat_cam import FlatCam
 
 
 Makers = dict[str, Callable[[], "Part"]]
 
 
-def makers(design: Any) -> Makers:
-    """Makers of every part that the design has, by the name that --part takes.
+def makers(design: Any, asked: tuple[str, ...] = ()) -> Makers:
+    """Makers of every part that the design has, by the name that --part takes, and of paths that are asked for.
 
     Raises
         MissingSection - where the design file lacks the sections that a profile needs
     """
-    made: Makers = load(KINDS[design.kind].profiles)(design)
-    return made
+    paths = [name for name in asked if name.startswith(PATH)] if KINDS[design.kind].motion else []
+    made: Makers = {}
+    if not paths or len(paths) < len(asked):
+        made = load(KINDS[design.kind].profiles)(design)
+    return {**{name: partial(_path, design, name.removeprefix(PATH)) for name in paths}, **made}
 
 
 def kinds() -> tuple[str, ...]:
@@ -335,7 +340,7 @@ def five_bar(design: Any) -> Makers:
         titles = (f"{names[0]} gear", f"{names[1]} gear")
         widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
         found |= of_mesh(mesh, parts, titles, "gears", widths_of=widths, rim=rim, hands=hands)
-    return found
+    return found | ({f"{PATH}M": partial(_path, design, "M")} if design.is_path else {})
 
 
 def _five_bar_gears(design: Any, mesh: Any) -> list[str]:
@@ -1021,6 +1026,17 @@ def is_external(cam: AnyCam) -> bool:
 
 
 _RATES = ("velocity", "acceleration")
+_LOOKS = 36
+PATH = "PATH-"
+"""Begins the name of the path of a point of a link, which can be asked for of all that moves."""
+
+
+def coupler_path(design: Any) -> Makers:
+    """The path of the coupler point of a four-bar."""
+    if design.coupler_point is None:
+        message = "no path to export: the file has no coupler_point"
+        raise MissingSection(message, key="", fix=f"give coupler_point: [x, y], or --part {PATH}B")
+    return {f"{PATH}P": partial(_path, design, "P")}
 
 
 def planar(design: Any) -> Makers:
@@ -1029,7 +1045,7 @@ def planar(design: Any) -> Makers:
 
     structure = design.structure
     points = [name for name in design.spec.shown if len(moved(structure, name)) == 2]
-    found: Makers = {**{f"PATH-{name}": partial(_path, design, name) for name in points}, **_gears(design)}
+    found: Makers = {**{f"{PATH}{name}": partial(_path, design, name) for name in points}, **_gears(design)}
     found |= {name: partial(_planar_cam, name, cam) for name, cam in structure.cams.items()}
     if not found:
         raise MissingSection("no path to export", key="outputs", fix="name a point of a link in outputs")
@@ -1041,37 +1057,40 @@ def _planar_cam(name: str, cam: Any) -> Part:
 
 
 def _path(design: Any, name: str) -> Part:
-    """The path of a point over the period or range, its rates beside it."""
-    from gearlink.core.machines.planar.outputs import moved
+    """The path of a point over the period or range, its rates beside it.
 
-    course, per = design.course, "rad" if design.moving.input.unit == "rad" else "mm"
-    parts = moved(design.structure, name)
-
-    def rates(q: Reals, order: int) -> list[list[Reals]]:
-        jets = course.jets(q, order)
-        return [course.derivatives(part.coefficient, jets, order) for part in parts]
+    Raises
+        UnknownPoint - for a point that no link has, or that stands still
+    """
+    motion, given = design.moving, design.moving.input
+    place, per = _place(motion.at(np.linspace(given.start, given.end, _LOOKS), 0), name), given.unit
 
     def points(q: Reals) -> Points:
-        (x,), (y,) = rates(q, 0)
-        return np.asarray([x + 1j * y])
+        return np.asarray([rates_of(motion.at(q, 0), place).value])
 
     def extra(q: Reals) -> Reals:
-        x, y = rates(q, 2)
+        point = rates_of(motion.at(q, 2), place)
         shown = np.degrees(q) if per == "rad" else q
-        return np.asarray([shown, x[1], y[1], x[2], y[2]])
+        return np.asarray([shown, *(part for rate in point[1:3] for part in (rate.real, rate.imag))])
 
     units = (f"mm/{per}", f"mm/{per}^2") if per == "rad" else ("1", "1/mm")
     columns = [f"{axis}_{rate}_ratio [{unit}]" for rate, unit in zip(_RATES, units, strict=True) for axis in "xy"]
-    first = "input_angle [deg]" if per == "rad" else "input_position [mm]"
-    steps = max(8, course.samples // 10)
+    ends = [given.start, *(joint for joint in given.joints if given.start < joint < given.end), given.end]
+    steps = math.ceil(_LOOKS * max(1, given.turns or 1) / (len(ends) - 1))
     return Part(
-        name=f"PATH-{name}",
+        name=f"{PATH}{name.replace('/', '_')}",
         title=f"path of {name}",
-        stretches=(Stretch(("PATH",), points, course.start, course.end, extra=extra, steps=steps),),
-        closed=course.turns is not None,
+        stretches=tuple(Stretch(("PATH",), points, *span, extra=extra, steps=max(8, steps)) for span in pairwise(ends)),
+        closed=given.turns is not None,
         notes=("frame: that of the design", "rates are per input"),
-        extra_columns=(first, *columns),
+        extra_columns=(f"{given.column} [{'deg' if per == 'rad' else 'mm'}]", *columns),
     )
+
+
+def _place(mechanism: Mechanism, name: str) -> Place:
+    """A point by its name on its link, or as vectors are asked for."""
+    links = [link for link, held in mechanism.links.items() if name in held.points]
+    return Place(links[0], mechanism.links[links[0]].points[name]) if links else place_of(mechanism, name)
 
 
 def _gears(design: Any) -> Makers:

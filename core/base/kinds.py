@@ -102,6 +102,8 @@ KINDS: dict[str, Kind] = {
             outputs={"motion": ("rocker_angle",)},
             picture="cli.views.figures.of_motion:draw",
             scene="cli.views.scenes.of_motion:build",
+            profiles="cli.export.parts:coupler_path",
+            parts=("PATH-P",),
         ),
         Kind(
             "flatbed-press",
@@ -286,7 +288,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.geared_five_bar:draw",
             scene="cli.views.figures.geared_five_bar:build",
             profiles="cli.export.parts:five_bar",
-            parts=("input_gear", "output_gear", "idler_gear", "planet_gear", "sun_gear", "ring_gear"),
+            parts=("input_gear", "output_gear", "idler_gear", "planet_gear", "sun_gear", "ring_gear", "PATH-M"),
             rexs=(),
             sheets={"motion": "cli.views.figures.sheets.motion_sheet:five_bar"},
         ),

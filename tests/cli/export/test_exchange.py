@@ -394,7 +394,7 @@ def test_every_kind_with_gears_has_parts(designs: Path) -> None:
 
     wanted = {
         "hypocycloid_slider": ["planet", "ring"],
-        "five_bar_path": ["input_gear", "output_gear"],
+        "five_bar_path": ["input_gear", "output_gear", "PATH-M"],
         "five_bar_positions": ["planet_gear", "sun_gear"],
         "mutilated_gear_press": ["wheel", "gear2"],
         "geared_six_bar": ["gear1A", "gear1B", "gear2B", "gear2C"],

@@ -191,9 +191,9 @@ def test_the_library_is_left_as_it_was(gearlink: Any, tmp_path: Path) -> None:
 
 
 def test_a_kind_without_profiles(gearlink: Any, tmp_path: Path) -> None:
-    ended = gearlink("export", ROOT / "designs" / "crank_rocker.yaml", "--out", tmp_path)
+    ended = gearlink("export", ROOT / "designs" / "quiet_law.yaml", "--out", tmp_path)
     assert ended.status == 2
-    assert "crank-rocker has no profile" in ended.err
+    assert "motion-law has no profile" in ended.err
     assert "gear-pair" in ended.err
     assert not list(tmp_path.iterdir())
 
