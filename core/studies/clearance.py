@@ -24,13 +24,12 @@ from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
-from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
-from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.gears.mesh.pair import GearPair
+    from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
 LEAST_SHAFT_MODULES = 2.0
@@ -490,9 +489,12 @@ def coupler_joint(linkage: FourBar) -> Reach:
     Raises
         NoSolution - as `joint_to_crank_pivot`
     Example
+        >>> from gearlink.core.parts.linkages import FourBar
         >>> coupler_joint(FourBar(18.0, 50.0, 100.0, 121.4)).nearest
         32.0
     """
+    from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+
     near, far = joint_to_crank_pivot(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly)
     return Reach(near.distance, far.distance, near.crank_angle, far.crank_angle)
 
