@@ -11,7 +11,7 @@ from factory import DESIGNS
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gearlink.cli.commands import design
+from gearlink.cli.render import key_results
 from gearlink.cli.render.numbers import drawn
 
 FEED = DESIGNS / "standing_feed.yaml"
@@ -101,9 +101,9 @@ def test_what_is_drawn_is_near(value: float, unit: str) -> None:
 def test_long_lists_run_on_below_their_first_value() -> None:
     """Numbers as many as there is space for, texts one by one; what is short stays as it is."""
     numbers = "flips  " + " ".join(f"{k}.00" for k in range(10, 40)) + " deg"
-    folded = design._folded(numbers, 40, " " * 7)
+    folded = key_results._folded(numbers, 40, " " * 7)
     assert max(map(len, folded)) <= 40
     assert " ".join(line.strip() for line in folded) == numbers
-    texts = design._folded("limiting  a before b by 5; b before c by 2", 30, " " * 10)
+    texts = key_results._folded("limiting  a before b by 5; b before c by 2", 30, " " * 10)
     assert texts == ["limiting  a before b by 5;", "          b before c by 2"]
-    assert design._folded("short  1 2", 40, " " * 7) == ["short  1 2"]
+    assert key_results._folded("short  1 2", 40, " " * 7) == ["short  1 2"]
