@@ -37,7 +37,7 @@ from gearlink.cli.progress import progress
 from gearlink.cli.reading.design_file import read_at_most
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.cli.reading.places import design_files, files_read
+from gearlink.cli.reading.places import by_kind, design_files, files_read
 from gearlink.cli.render.csv_report import table_rows, write_rows
 from gearlink.cli.render.json_report import as_json
 from gearlink.core.base.kind import FileDesigns
@@ -299,7 +299,7 @@ def _written(value: float | str) -> str:
 # Several processes pay when the rest would take this long in one; starting them costs some hundredths of a second.
 _WORTH_SECONDS = 0.15
 _TRIED_FIRST = 16
-_CHUNKS_PER_JOB = 32
+_CHUNKS_PER_JOB = 4
 _CHUNK_SECONDS = 0.25
 _LOOK_SECONDS = 0.2
 T = TypeVar("T")
@@ -353,10 +353,10 @@ def _jobs(options: BatchOptions, rest: Sequence[Path], seconds_each: float) -> i
 
 
 def _chunks(files: Sequence[Path], jobs: int, seconds_each: float) -> list[Sequence[Path]]:
-    """Interleaved shares: large enough to pay, small enough that an interrupt need not wait for them."""
+    """Shares of one kind each: large enough to pay, small enough that an interrupt need not wait for them."""
     by_time = len(files) * seconds_each / _CHUNK_SECONDS
-    count = min(len(files), max(jobs * _CHUNKS_PER_JOB, int(by_time)))
-    return [files[i::count] for i in range(count)]
+    count = max(jobs * _CHUNKS_PER_JOB, int(by_time))
+    return [[files[k] for k in part] for part in by_kind(files, -(-len(files) // count))]
 
 
 def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) -> Iterator[tuple[int, list[Outcome]]]:

@@ -41,6 +41,24 @@ def design_files(places: Sequence[str]) -> list[Path]:
     return list(found)
 
 
+def by_kind(files: Sequence[str | Path], most: int) -> list[list[int]]:
+    """Numbers of files in parts of at most so many, each of one kind: a process that computes a part imports its kind
+    alone, where the imports of all kinds take a fifth of the time of a folder with all of them."""
+    kinds: dict[bytes, list[int]] = {}
+    for k, file in enumerate(files):
+        kinds.setdefault(_kind_line(file), []).append(k)
+    return [of_kind[k : k + most] for of_kind in kinds.values() for k in range(0, len(of_kind), most)]
+
+
+def _kind_line(file: str | Path) -> bytes:
+    """The line that names the kind, as far as it can be seen without reading YAML; nothing where it cannot."""
+    try:
+        with open(file, "rb") as stream:
+            return next((line.split(b"#")[0].strip() for line in stream if line.startswith(b"kind:")), b"")
+    except OSError:
+        return b""
+
+
 def astray(name: str) -> str:
     """Where a link named as a design file leads, if that is none: its lines would be shown as those of a design."""
     if not (name.endswith(ENDINGS) and os.path.islink(name)):

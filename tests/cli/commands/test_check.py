@@ -15,6 +15,7 @@ from sweeps import ALL
 
 from gearlink.cli.commands import check
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.reading.places import by_kind
 from gearlink.cli.texts.codes import key_of
 from gearlink.core.base.design import Design
 from gearlink.core.base.report import Check
@@ -288,7 +289,7 @@ def test_parts_for_processes_hold_every_file_once_and_one_kind_each(tmp_path: Pa
     for k, kind in enumerate(kinds):
         (tmp_path / f"{k:02d}.yaml").write_text(f"# text\nkind: {kind}   # text\n", encoding="utf-8")
     files = [str(path) for path in sorted(tmp_path.iterdir())]
-    parts = check._parts([*files, str(tmp_path / "gone.yaml")], 8)
+    parts = by_kind([*files, str(tmp_path / "gone.yaml")], 6)
     assert sorted(k for part in parts for k in part) == list(range(41))
     assert all(len({[*kinds, ""][k] for k in part}) == 1 and len(part) <= 6 for part in parts)
 
