@@ -304,9 +304,10 @@ class LoadsDesign(Design):
 
     def extreme(self, f: Callable[[Reals], Reals], greatest: bool = True) -> Extreme:
         """Maximum or minimum value over the period of a function of the input angle, refined."""
-        return self._extremes([(f, greatest)])[0]
+        return self.extremes_of([(f, greatest)])[0]
 
-    def _extremes(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
+    def extremes_of(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
+        """Maximum or minimum values over the period of functions of the input angle, refined."""
         from gearlink.core.numerics.extremes import extremes_over
         from gearlink.core.studies.loads.panels import fewest_samples
 
@@ -361,7 +362,7 @@ class LoadsDesign(Design):
         names = tuple(quantities)
         with suppress(GearlinkError):  # it is said where the quantity is asked for
             wanted = dict.fromkeys(key for name in names for key in self.wanted(name) if key not in self._found)
-            found = self._extremes([(self.course(course), greatest) for course, greatest in wanted])
+            found = self.extremes_of([(self.course(course), greatest) for course, greatest in wanted])
             self._found.update(zip(wanted, found, strict=True))
         with suppress(GearlinkError):
             self._find_reversals(names)

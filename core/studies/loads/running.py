@@ -72,8 +72,8 @@ class Running:
         return self.design.energy.run(self.inertia, abs(self.design.speed))
 
     def _require_inertia(self) -> None:
-        least = self.design.reflected_inertia_min + self.inertia
-        if not least > 0.0:
+        # what the links add is nowhere negative, and is not sought where there is a flywheel or a motor
+        if not (self.inertia > 0.0 or self.design.reflected_inertia_min > 0.0):
             raise MissingSection(
                 "without any inertia on the input its speed is not defined",
                 key="loads.flywheel",

@@ -450,7 +450,7 @@ class Vibrating:
     @cached_property
     def lift(self) -> float:
         """Maximum less minimum place over the period [deg or mm]."""
-        low, high = (self.design.extreme(self.place, greatest) for greatest in (False, True))
+        low, high = self.design.extremes_of([(self.place, False), (self.place, True)])
         return high.value - low.value
 
     @cached_property
