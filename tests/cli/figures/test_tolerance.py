@@ -94,7 +94,7 @@ def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
 def test_a_register_sheet_says_each_thing_once_and_what_it_leaves_out() -> None:
     _, figure = sheet("candy_feed_tolerances", "register")
     titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert "By source, each at its limit, the 6 maximum of 7; dashed: torque −1" in titles
+    assert "By source, each at its limit, the 6 largest of 7; dashed: torque −1" in titles
     _, figure = sheet("ring_feed_tolerances", "register")
     named = [text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().get_texts()]
     assert named.count("torque turns") == 1
