@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,10 @@ from gearlink.core.base.spec_paths import part_at
 if TYPE_CHECKING:
     from gearlink.cli.texts.schema import SpecKey
     from gearlink.core.base.kind import Kind
+
+
+_WARNED = re.compile(r"# GL\d{3}[^:]* warns?: ")
+"""A remark of an example on a warning that stands."""
 
 
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
@@ -63,17 +68,18 @@ def template(kind: Kind, name: str = "") -> str:
     Raises
         LookupError - for a kind without an example in `gearlink.designs`
     """
-    design = worked_design(kind)
+    worked = design = worked_design(kind)
     if kind.name in KINDS:
-        design = _explained(kind, design, name)
+        design = _explained(kind, worked, name)
     asked = index().first_commands[kind.name]
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
         f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
         f"# Run it with: gearlink {asked} FILE\n"
-        "# A number is in the unit named behind it; another unit may be written with the number\n\n"
+        "# A number is in the unit named behind it; another unit may be written with the number\n"
     )
-    return head + design.rstrip("\n") + "\n" + _left_out(kind, design)
+    warned = "".join(f"{line}\n" for line in worked.splitlines() if design != worked and _WARNED.match(line))
+    return f"{head}{warned}\n" + design.rstrip("\n") + "\n" + _left_out(kind, design)
 
 
 def _explained(kind: Kind, text: str, name: str) -> str:

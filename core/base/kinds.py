@@ -324,7 +324,7 @@ KINDS: dict[str, Kind] = {
             samples="samples:PlanarSamples",
             picture="cli.views.figures.of_motion:draw",
             profiles="cli.export.parts:planar",
-            worked="planar_watt",
+            worked="planar_quick_return",
         ),
         Kind(
             "hypocycloid-dwell",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,10 @@ def test_template_runs_as_it_stands(gearlink: Any, tmp_path: Path, kind: str) ->
     for command in spec.commands():
         ended = gearlink(*command.split(), path, "--format", "json")
         assert ended.status == 0, ended.out[:500]
+    found = json.loads(gearlink("check", path, "--format", "json").out)
+    warned = {check["code"] for check in found["checks"] if check["status"] != "pass"}
+    remarks = [line for line in path.read_text().splitlines() if " warn" in line and line.startswith("# GL")]
+    assert warned == set(re.findall(r"GL\d{3}", " ".join(line.partition(":")[0] for line in remarks)))
     assert Draft7Validator(kind_schema(KINDS[kind])).is_valid(loaded.data)
 
 
