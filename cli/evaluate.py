@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
@@ -19,7 +19,7 @@ from gearlink.core.base.kinds import FILES, STUDY
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
-    from gearlink.core.base.report import Report
+    from gearlink.core.base.report import Check, Report
     from gearlink.core.studies.study.faults import WrongStudy
 
 
@@ -83,6 +83,29 @@ def whole_design(kind: Kind, spec: Any) -> Design:
     """The design by the command whose class knows links and parts: an analysis of given ones before a synthesis."""
     asked: tuple[str, ...] = spec.commands()
     return kind.design("analyze" if "analyze" in asked else asked[0], spec)
+
+
+def checks_of(kind: Kind, spec: Any, known: Any = None) -> Sequence[Check]:
+    """The findings of all commands of a file; of one that refuses the design there are none.
+
+    Parameters
+        known : Kin - the designs of the file, where some are made already
+    """
+    designs = FileDesigns(kind, spec) if known is None else known
+    found: list[Check] = []
+    for command in spec.commands():
+        with suppress(NoSolution):
+            found += designs.of(command).report(command, findings_only=True).checks
+    return found
+
+
+def failures(checks: Iterable[Check]) -> list[str]:
+    """What fails in a few words, each check once with the first value that does."""
+    found: dict[tuple[str, str], str] = {}
+    for check in checks:
+        if check.status == "fail":
+            found.setdefault((check.code, check.name), check.brief)
+    return list(found.values())
 
 
 def wrong_kind(loaded: LoadedFile, message: str) -> DesignFileError:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 import sys
-from contextlib import suppress
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
-from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
+from gearlink.cli.evaluate import checks_of, open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
@@ -18,13 +17,9 @@ from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.views.scenes.linkages import build, moves, moving_kinds, pictures_for
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from gearlink.cli.views.films.stage import Stage
     from gearlink.cli.views.scenes.scene import Scene
     from gearlink.core.base.design import Design
-    from gearlink.core.base.kind import Kind
-    from gearlink.core.base.report import Check
 
 _SIZE = re.compile(r"(\d{3,4})x(\d{3,4})")
 _LEAST_SIZE, _MOST_SIZE = 160, 3840
@@ -103,19 +98,6 @@ def require_shown(design: Design, show: str) -> None:
 def wrong_show(error: Exception) -> DesignFileError:
     """What `--show` asks for and cannot be had, as an error of the command line."""
     return DesignFileError([Diagnostic("GL115", str(error), "<command line>", key="--show")])
-
-
-def checks_of(kind: Kind, spec: Any) -> Sequence[Check]:
-    """The findings of all commands of a file; of one that refuses the design there are none."""
-    from gearlink.core.base.errors import NoSolution
-    from gearlink.core.base.kind import FileDesigns
-
-    designs = FileDesigns(kind, spec)
-    found: list[Check] = []
-    for command in spec.commands():
-        with suppress(NoSolution):
-            found += designs.of(command).report(command, findings_only=True).checks
-    return found
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -10,8 +10,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gearlink.cli.commands.animate import checks_of, require_shown
-from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design
+from gearlink.cli.commands.animate import require_shown
+from gearlink.cli.evaluate import checks_of, open_design, read_spec, refusals_located, whole_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options

@@ -17,7 +17,15 @@ from itertools import chain, repeat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
+from gearlink.cli.evaluate import (
+    checks_of,
+    failures,
+    open_design,
+    read_spec,
+    refusals_located,
+    whole_design,
+    wrong_kind,
+)
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import Contour, describe, design_hash, error_name, rounded_up, rows_of
@@ -31,6 +39,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.core.base.errors import GearlinkError, named
+from gearlink.core.base.kinds import FILES
 from gearlink.core.base.wording import first_of
 from gearlink.core.version import VERSION
 
@@ -41,7 +50,8 @@ if TYPE_CHECKING:
 def run_export(source: str, asked: Export) -> int:
     """Export the parts of the design file `source`, say what was written, and give the exit status.
 
-    1 where the files were written but a profile is unfit for use (the roller cuts into it), 2 where nothing was.
+    1 where the files were written but a check of the file fails, or a profile is unfit for use (the roller cuts into
+    it); 2 where nothing was.
     """
     try:
         loaded, kind = open_design(source, asked.options)
@@ -67,9 +77,20 @@ def run_export(source: str, asked: Export) -> int:
         show_errors([Diagnostic("GL115", str(error), file="<command line>")], asked.options)
         return ExitCode.WRONG_INPUT
     found = {contour.part.name: contour.part.findings for made in contours.values() for contour in made}
-    findings = [(name, text) for name, texts in found.items() for text in texts]
-    for name, text in findings:
-        print(f"warning: {name}: {text}", file=sys.stderr)
+    findings = [f"{name}: {text}" for name, texts in found.items() for text in texts]
+    return _warned([*findings, *_failed(design)])
+
+
+def _failed(design: Any) -> list[str]:
+    """What checks of the file fail, whatever is exported."""
+    kind = FILES[design.kind]
+    return [f"the design fails {words}" for words in failures(checks_of(kind, design.spec, design.kin))]
+
+
+def _warned(findings: list[str]) -> int:
+    """Say on standard error what is wrong with what was written; the exit status."""
+    for text in findings:
+        print(f"warning: {text}", file=sys.stderr)
     return ExitCode.FINDING if findings else ExitCode.OK
 
 
@@ -358,7 +379,7 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
     if not options.quiet:
         shown = f"{math.degrees(error):.3g} deg" if design.rocks else f"{error:.3g} mm"
         print(f"{visible(str(path))}: {count} rows, off by at most {shown} between them{in_place(path)}")
-    return ExitCode.OK
+    return _warned(_failed(design))
 
 
 def _servo_rows(design: Any, rows: int | None, tolerance: float | None) -> int:

@@ -1105,11 +1105,11 @@ def _gears(design: Any) -> Makers:
             teeth, links = mesh.teeth, (names[mesh.first], names[mesh.second])
             if teeth[0] < 0:
                 teeth, links = teeth[::-1], links[::-1]
-            made = of_mesh(
-                GearPair.from_shift(mesh.module, teeth, pressure_angle=alpha),
-                (f"{name}_{links[0]}", f"{name}_{links[1]}"),
-                (f"gear of {links[0]}", f"gear of {links[1]}"),
-                f"meshes.{name}",
-            )
+        made = of_mesh(
+            GearPair.from_shift(mesh.module, teeth, pressure_angle=alpha),
+            (f"{name}_{links[0]}", f"{name}_{links[1]}"),
+            (f"gear of {links[0]}", f"gear of {links[1]}"),
+            f"meshes.{name}",
+        )
         found |= {part: maker for part, maker in made.items() if not part.endswith("_")}
     return found

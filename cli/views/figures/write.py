@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from gearlink.cli.evaluate import failures as failing
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
 from gearlink.cli.printable import visible
@@ -55,11 +56,7 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
 
 def failures(checks: Iterable[Check]) -> str:
     """What fails, each check once with the first value that does; "" where nothing does."""
-    found: dict[tuple[str, str], str] = {}
-    for check in checks:
-        if check.status == "fail":
-            found.setdefault((check.code, check.name), check.brief)
-    return ", ".join(found.values()).replace("^2", "²").replace("<=", "≤").replace(">=", "≥")
+    return ", ".join(failing(checks)).replace("^2", "²").replace("<=", "≤").replace(">=", "≥")
 
 
 def panels(command: str, design: Design) -> Figure:

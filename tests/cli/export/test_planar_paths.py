@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from gearlink.cli.app import app
+from gearlink.cli.export import parts
 from gearlink.cli.opening import load
 
 DESIGNS = Path(__file__).parents[3] / "designs"
@@ -45,6 +46,12 @@ def test_a_mechanism_without_an_output_point_has_none(tmp_path: Path) -> None:
     done = run("export", str(DESIGNS / "planar_quick_return.yaml"), "--out", str(tmp_path))
     assert done.exit_code == 2
     assert not [*tmp_path.iterdir()]
+
+
+def test_pinions_of_racks_are_parts() -> None:
+    made = parts.makers(load(DESIGNS / "planar_bed_chain.yaml"))
+    assert list(made) == ["rack_lower_pinion", "rack_upper_pinion"]
+    assert made["rack_lower_pinion"]().teeth == 50
 
 
 def test_the_path_of_a_coupler_point_is_that_of_its_table(tmp_path: Path) -> None:
