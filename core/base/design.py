@@ -8,7 +8,7 @@ no other state, so there is no order in which things must be called.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import count
 from operator import index
@@ -492,6 +492,13 @@ def _rows(samples: Any) -> int:
 def _quantities_of(kind: type[Design]) -> tuple[str, ...]:
     outlines = (*kind.outlines.values(), *kind.beside_tables.values())
     return tuple(dict.fromkeys(name for outline in outlines for name in outline.quantities))
+
+
+class NamesOfFile:
+    """Names of quantities that follow the names of a file: of a class those that there may be, of a design its own."""
+
+    def __get__(self, design: Any, cls: Any) -> Callable[[], tuple[str, ...]]:
+        return (lambda: _quantities_of(cls)) if design is None else lambda: design.own_names
 
 
 @cache

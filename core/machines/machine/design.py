@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.design import Design, Found, Outline, UnknownName, in_unit
+from gearlink.core.base.design import Design, Found, NamesOfFile, Outline, UnknownName, in_unit
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Shown, Status, Table
@@ -17,8 +17,6 @@ from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from gearlink.core.machines.machine.relations import Moment, Relation
     from gearlink.core.machines.machine.series import Members, OverMachine
     from gearlink.core.machines.machine.shaft import Chain
@@ -35,17 +33,6 @@ _OWN_CHECKS = ("timing-relation", "member-speed", "critical-speed")
 _SAME_SPEED = 1e-9
 
 
-class OfMachine:
-    """Names that follow the members of a file: of a class those that every machine has, of a design its own."""
-
-    def __get__(self, design: Any, cls: Any) -> Callable[[], tuple[str, ...]]:
-        if design is not None:
-            return lambda: design.own_names
-        shown = (name for outline in cls.outlines.values() for name in outline.quantities)
-        names = tuple(dict.fromkeys(shown))
-        return lambda: names
-
-
 class OfMembers(Design):
     """What a machine shares for all its commands: results and findings of its members beside its own.
 
@@ -54,7 +41,7 @@ class OfMembers(Design):
 
     kind = "machine"
     spec: MachineSpec
-    quantity_names = OfMachine()
+    quantity_names = NamesOfFile()
     advises = False
     command = "analyze"
 

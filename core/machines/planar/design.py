@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.design import Design, NamesOfFile, Outline
 from gearlink.core.base.errors import GearlinkError, MissingSection
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way
@@ -39,7 +39,7 @@ from gearlink.core.studies.clearance import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from gearlink.core.base.report import Status
     from gearlink.core.machines.planar.course import Course
@@ -340,17 +340,6 @@ def folded(angle: Any) -> Any:
     return np.minimum(np.abs(angle) % math.pi, math.pi - np.abs(angle) % math.pi)
 
 
-class OfFile:
-    """Names of quantities that follow the names of a file: of a class those that there may be, of a design its own."""
-
-    def __get__(self, design: Any, cls: Any) -> Callable[[], tuple[str, ...]]:
-        if design is not None:
-            return lambda: design.own_names
-        shown = (name for outline in cls.outlines.values() for name in outline.quantities)
-        names = tuple(dict.fromkeys(shown))
-        return lambda: names
-
-
 class PlanarMechanism(Design):
     """Links, joints and drives of a file in motion."""
 
@@ -399,7 +388,7 @@ class PlanarMechanism(Design):
         )
     }
     extra_tables = ("links", "points", "slides", "poles", "cams")
-    quantity_names = OfFile()
+    quantity_names = NamesOfFile()
 
     @cached_property
     def structure(self) -> Structure:

@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.design import Outline
+from gearlink.core.base.design import NamesOfFile, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
-from gearlink.core.machines.planar.design import OfFile, PlanarMechanism
+from gearlink.core.machines.planar.design import PlanarMechanism
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 
@@ -44,7 +44,7 @@ class PlanarLoads(LoadsDesign):
     spec: PlanarSpec
     links, pins, meshes = (), (), ()
     outlines = loads_outline((), ())
-    quantity_names = OfFile()
+    quantity_names = NamesOfFile()
     joints_of_period = True
 
     def __init__(self, spec: Any) -> None:
