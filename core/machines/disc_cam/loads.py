@@ -10,9 +10,8 @@ from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import DiscCamDesign
-from gearlink.core.machines.disc_cam.mechanism import roller_on
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign, contact_table
-from gearlink.core.studies.loads.contact import positive_drive
+from gearlink.core.studies.loads.contact import positive_drive, roller_on
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, fixed, standing, steady
-from gearlink.core.studies.loads.contact import RollerOnCam
+from gearlink.core.studies.loads.contact import roller_on
 from gearlink.core.studies.movable import Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.cams import FollowerCams
     from gearlink.core.machines.disc_cam.design import DiscCamDesign
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.parts.cams.disc_cam import DiscCam
 
 
 _SENSES = {1: "rise", -1: "return", 0: "dwell"}
@@ -103,12 +102,6 @@ def _contacts(cams: FollowerCams, phi: Reals, made: Mechanism) -> list[Contact]:
         other = made.once("roller return", lambda: roller_on(cams.back, phi))  # type: ignore[arg-type]
         back = other.position, -other.normal
     return [Contact("main", "cam", "follower", roller.position, roller.normal, back, roller.curvature)]
-
-
-def roller_on(cam: DiscCam, phi: Reals) -> RollerOnCam:
-    """A roller from the cam axis."""
-    path = cam.path(phi, 2)
-    return RollerOnCam(path.position, path.first, path.second, cam.sense, cam.roller_radius)
 
 
 def _phases(cams: FollowerCams) -> tuple[tuple[str, float, float], ...]:

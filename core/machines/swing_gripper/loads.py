@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
-from gearlink.core.machines.swing_gripper.mechanism import roller_on
 from gearlink.core.machines.swing_gripper.motion import require
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.contact import roller_on
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
-from gearlink.core.studies.loads.contact import RollerOnCam
+from gearlink.core.studies.loads.contact import roller_on
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.design import SwingGripper
@@ -88,12 +88,6 @@ def _cams(design: SwingGripper) -> dict[str, DiscCam]:
     """Main, and return where the file has one."""
     back = design.return_cam
     return {"main": design.main_cam} if back is None else {"main": design.main_cam, "return": back}
-
-
-def roller_on(cam: DiscCam, phi: Reals) -> RollerOnCam:
-    """A roller from the cam axis; the cam turns as far as the cylinder."""
-    path = cam.path(phi, 2)
-    return RollerOnCam(path.position, path.first, path.second, cam.sense, cam.roller_radius)
 
 
 def links_of(linkage: GripperLinkage, phi: Reals, order: int, arm: complex = 0j) -> dict[str, Link]:

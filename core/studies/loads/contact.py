@@ -9,12 +9,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.mechanism.rates import cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.cams.disc_cam import DiscCam
 
 _PHI = 0.5 * (1.0 + math.sqrt(5.0))
 SHEAR_DEPTH = _PHI**-0.5
@@ -92,6 +96,12 @@ def plane_modulus(modulus: float, poisson: float) -> float:
         113186.813
     """
     return modulus / (2.0 * (1.0 - poisson * poisson))
+
+
+def roller_on(cam: DiscCam, phi: Reals) -> RollerOnCam:
+    """The roller of a cam that turns as far as the input, from the cam axis."""
+    path = cam.path(phi, 2)
+    return RollerOnCam(path.position, path.first, path.second, cam.sense, cam.roller_radius)
 
 
 @dataclass(frozen=True)
