@@ -357,16 +357,18 @@ def shaft_judged(gap: Any, limit: Any, bare: Any) -> Judged:
     return Judged(SHAFT_CLEARANCE, gap, limit, low & (bare ^ True), low & bare, "mm")
 
 
-class Placed(Protocol):
-    """A design with gears and shafts in one plane."""
+class WithShafts:
+    """GL302 of a design whose gears and shafts lie in one plane, which its `layout` gives."""
 
-    @property
-    def layout(self) -> Layout: ...
+    layout: Any
 
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302 of gears and shafts; see `shaft_checks`."""
+        return shaft_checks(self.layout)
 
-def shaft_seat(design: Placed) -> Iterator[Check]:
-    """GL302: the rims of gears round their own shafts; see `seat_checks`."""
-    return seat_checks(design.layout)
+    def check_shaft_seat(self) -> Iterator[Check]:
+        """GL302 of the rims of gears round their own shafts; see `seat_checks`."""
+        return seat_checks(self.layout)
 
 
 def seat_checks(layout: Layout) -> Iterator[Check]:

@@ -38,7 +38,7 @@ from gearlink.core.parts.gears.codes import DWELL_QUALITY
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
@@ -581,7 +581,7 @@ _SHARED = (
 )
 
 
-class HypocycloidDwell(SliderSpeed, Meshed):
+class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
     """Slider that dwells while a point of the planet runs along an arc about its centre, or an arm that steps."""
 
     kind = "hypocycloid-dwell"
@@ -960,10 +960,6 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         aside = "" if tolerance is None else f"within +-{short(tolerance)} deg"
         status: Status = "pass" if met else "fail"
         yield DWELL_QUALITY.check(status, what, found, asked, "deg", shown=shown, aside=aside, fix=fix)
-
-    def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""

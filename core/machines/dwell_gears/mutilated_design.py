@@ -39,7 +39,7 @@ from gearlink.core.parts.linkages.codes import TARGET
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot, rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
@@ -251,7 +251,7 @@ def _with_teeth(spec: MutilatedGearDwellSpec) -> MutilatedGearDwellSpec:
     return spec.model_copy(update={"reduction": reduction, "gears": gears.model_copy(update=chosen)})
 
 
-class MutilatedGearDwell(RealSpeed, Meshed):
+class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
     """Reduction, mutilated wheel and driven gear; the crank on its shaft stands while the gap passes."""
 
     kind = "mutilated-gear-dwell"
@@ -561,12 +561,6 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         )
         remedy = "reduce gears.group_teeth, so that the locking arc fits"
         return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
-
-    def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return shaft_checks(self.layout)
-
-    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303, where there is a four-bar."""

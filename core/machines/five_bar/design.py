@@ -36,13 +36,12 @@ from gearlink.core.studies.clearance import (
     Gear,
     Layout,
     Reach,
+    WithShafts,
     collision_check,
     constant,
     crank_pin,
     least_shaft,
     ring_gear,
-    shaft_checks,
-    shaft_seat,
     shafts_at,
 )
 
@@ -805,7 +804,7 @@ _OF_PATH = names("velocity", "acceleration")
 _OF_FUNCTION = names("speed_ratio", "acceleration_ratio")
 
 
-class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
+class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarParts):
     """A five-bar whose gears take away one of its two freedoms."""
 
     kind = "geared-five-bar"
@@ -1149,12 +1148,6 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
             why = f"axes {short(pair.distance)} mm apart"
             remedy = "lengthen the frame, as far as the idler reaches"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
-
-    def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return shaft_checks(self.layout)
-
-    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

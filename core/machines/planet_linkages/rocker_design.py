@@ -25,7 +25,7 @@ from gearlink.core.parts.linkages.checks import check_linkage, target_check, tra
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_spec import GearedRockerSpec
@@ -171,7 +171,7 @@ _CRANK = 11.0
 """Trials of a crank that is given, which one that is sought takes as long as."""
 
 
-class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
+class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
     """Crank-rocker with a gear on the coupler at C and the output gear on D; the rocker is their centre distance."""
 
     kind = "geared-rocker"
@@ -405,12 +405,6 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         if self.swing_residual is not None:
             degrees = math.degrees(self.swing_residual)
             yield target_check("the swing of the output", degrees, math.degrees(_SWING_TOLERANCE), "deg")
-
-    def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return shaft_checks(self.layout)
-
-    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

@@ -27,7 +27,7 @@ from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep, OutputRates, Turning
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.two_gear_family import Family
@@ -107,7 +107,7 @@ _FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring
 _LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
-class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
+class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
 
     kind = "two-gear-four-bar"
@@ -449,12 +449,6 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
             return f"set z5/z2 to {short(limit)} (now {short(have)})"
         side, bound = ("above", safely_above(limit)) if asked == UNIDIRECTIONAL else ("below", safely_below(limit))
         return f"set z5/z2 {side} {bound} (now {short(have)})"
-
-    def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return shaft_checks(self.layout)
-
-    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

@@ -36,14 +36,13 @@ from gearlink.core.studies.clearance import (
     Gear,
     Layout,
     Shaft,
+    WithShafts,
     collision_check,
     constant,
     coupler_joint,
     crank_pin,
     least_gap,
     least_shaft,
-    shaft_checks,
-    shaft_seat,
 )
 
 if TYPE_CHECKING:
@@ -143,7 +142,7 @@ WAYS = {
 }
 
 
-class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
+class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
     """A three-gear four-bar of given links, or of those that the `task` of a synthesis finds."""
 
     kind = "three-gear-four-bar"
@@ -533,12 +532,6 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     def tip_excess(self) -> float:
         """What the tips of gears 1 and 5 reach beyond their reference circles, together [mm]."""
         return tip_excess(self.spec.gears)
-
-    def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return shaft_checks(self.layout)
-
-    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
