@@ -89,9 +89,7 @@ class PlanetLinkage:
         Source
             thesis 2.2.1
         """
-        coupler, rocker = rates_of(self.linkage.reading, crank_angle, 1)
-        carrier = 1.0 if self.carrier == "crank" else rocker
-        return (1.0 - self.ratio) * carrier + self.ratio * coupler
+        return self._rate(crank_angle, 1)
 
     def acceleration(self, crank_angle: float) -> float:
         """Acceleration ratio of the output gear at constant crank speed, dW/dphi [1/rad].
@@ -99,9 +97,7 @@ class PlanetLinkage:
         Raises
             NoSolution - where the linkage does not close
         """
-        coupler, rocker = rates_of(self.linkage.reading, crank_angle, 2)
-        carrier = 0.0 if self.carrier == "crank" else rocker
-        return (1.0 - self.ratio) * carrier + self.ratio * coupler
+        return self._rate(crank_angle, 2)
 
     def jerk(self, crank_angle: float) -> float:
         """Jerk ratio of the output gear at constant crank speed, d2W/dphi2 [1/rad^2].
@@ -109,8 +105,12 @@ class PlanetLinkage:
         Raises
             NoSolution - where the linkage does not close
         """
-        coupler, rocker = rates_of(self.linkage.reading, crank_angle, 3)
-        carrier = 0.0 if self.carrier == "crank" else rocker
+        return self._rate(crank_angle, 3)
+
+    def _rate(self, crank_angle: float, order: int) -> float:
+        """A derivative of the output's angle, of coupler and carrier weighted by the ratio."""
+        coupler, rocker = rates_of(self.linkage.reading, crank_angle, order)
+        carrier = float(order == 1) if self.carrier == "crank" else rocker
         return (1.0 - self.ratio) * carrier + self.ratio * coupler
 
     def mean_ratio(self) -> float:
