@@ -98,7 +98,8 @@ def sheets(incomplete: str) -> Offer:
 
 def places(incomplete: str) -> Offer:
     """Where the register of the design file on the line is asked for, beside angles."""
-    return _beginning(incomplete, ((kind.register_at, "") for kind in _kinds() if kind.register_at))
+    kinds = (kind for kind in _kinds() if "register" in kind.commands and kind.register_at)
+    return _beginning(incomplete, ((kind.register_at, "") for kind in kinds))
 
 
 def published_cases(incomplete: str) -> Offer:

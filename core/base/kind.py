@@ -49,13 +49,13 @@ class Kind(NamedTuple):
     folder: str
     spec: str
     commands: Mapping[str, str]
-    motion: str = ""
+    motion: str = "mechanism:motion"
     codes: str = ""
     array: str = ""
     samples: str = ""
     outputs: Mapping[str, tuple[str, ...]] = {}
     errors: str = ""
-    register_at: str = ""
+    register_at: str = "range"
     picture: str = ""
     drawn: tuple[str, ...] = ()
     scene: str = ""

@@ -21,9 +21,7 @@ RECORD = Kind(
     "push_rod",
     "spec:PushRodSpec",
     {"analyze": "design:PushRod", "loads": "design:PushRodLoadsDesign", "register": "", "tolerance": ""},
-    motion="mechanism:motion",
     errors="mechanism:errors",
-    register_at="range",
     outputs={"motion": ("displacement",)},
 )
 TEXT = """kind: push-rod
