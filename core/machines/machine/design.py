@@ -115,7 +115,7 @@ class OfMembers(Design):
 
     def decisive(self, command: str) -> Iterable[str]:
         """What can say that there is no such machine."""
-        return type(self).outlines[command].quantities
+        return (name for name in type(self).outlines[command].quantities if name not in self.derived)
 
     def raw(self, name: str) -> Any:
         """A quantity in mm and radians; of a member under its name."""
@@ -188,7 +188,6 @@ class Machine(OfMembers):
     }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes", "servo")
-    derived = frozenset(OWN)
 
     def varied(self, spec: Any) -> Machine:
         """The machine of another file, with the members that are as they were."""
@@ -223,10 +222,6 @@ class Machine(OfMembers):
         found = super().outline(command)
         tables = tuple(name for name in found.tables if name != "relations" or self.spec.require)
         return found._replace(tables=(*tables, "modes") if self.spec.shaft else tables)
-
-    def decisive(self, _command: str) -> Iterable[str]:
-        """What can say that there is no such machine."""
-        return OWN
 
     # Timing
 
