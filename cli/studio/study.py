@@ -287,7 +287,8 @@ class Solved(NamedTuple):
     result: float
 
 
-_SIDE, _SECONDS = 24, 20.0
+_SIDE, _LEAST_SIDE, _SECONDS = 24, 6, 20.0
+"""Places of the key on either side of its value, at least so many of a slow design, and the time for a wish [s]."""
 _CLOSE = 5e-5
 """Of the wish: what comes so near is printed as the wish."""
 _HALVINGS = 60
@@ -312,19 +313,26 @@ def wished(text: str, file: str, command: str, name: str, target: float, key: Nu
 
     def off(value: float) -> float | None:
         if time.monotonic() > end:
-            raise Refused(f"no {key.name} was found within {_SECONDS:g} s that gives {name} {target:g}")
+            raise _Late
         result = _value(made(value), file, command, name)
         return None if result is None else result - target
 
     seen: dict[float, float | None] = {}
-    for low, high in _intervals(key, off, seen):
-        value = high if seen[high] == 0.0 else _root(off, low, high, seen, whole=key.whole)
-        for step in (key.step,) if key.whole else [key.step * 10.0**-k for k in range(7)]:
-            near = round(round(value / step) * step, max(0, 2 - math.floor(math.log10(step))))
-            miss = off(near)
-            if miss is not None and (key.whole or abs(miss) <= _CLOSE * max(abs(target), _CLOSE)):
-                return Solved(made(near), near, target + miss)
+    try:
+        for low, high in _intervals(key, off, seen):
+            value = high if seen[high] == 0.0 else _root(off, low, high, seen, whole=key.whole)
+            for step in (key.step,) if key.whole else [key.step * 10.0**-k for k in range(7)]:
+                near = round(round(value / step) * step, max(0, 2 - math.floor(math.log10(step))))
+                miss = off(near)
+                if miss is not None and (key.whole or abs(miss) <= _CLOSE * max(abs(target), _CLOSE)):
+                    return Solved(made(near), near, target + miss)
+    except _Late:
+        raise _limit(key, name, target, None, seen) from None
     raise _limit(key, name, target, off, seen)
+
+
+class _Late(Exception):
+    """The time for a wish is over."""
 
 
 def _value(text: str, file: str, command: str, name: str) -> float | None:
@@ -346,11 +354,14 @@ def _intervals(
 ) -> Iterator[tuple[float, float]]:
     """Neighbouring values of the key between which the result passes the wish, from where it stands outwards."""
     low, high = key.range
+    begun = time.monotonic()
     seen[key.value] = off(key.value)
+    affordable = 0.25 * _SECONDS / max(time.monotonic() - begun, 1e-6)  # half of the time, for both sides
+    count = min(_SIDE, max(_LEAST_SIDE, int(affordable)))
     last = {-1: key.value, 1: key.value}
-    for k in range(1, _SIDE + 1):
+    for k in range(1, count + 1):
         for side, end in ((-1, low), (1, high)):
-            value = key.value + (end - key.value) * k / _SIDE
+            value = key.value + (end - key.value) * k / count
             value = float(round(value)) if key.whole else value
             before = last[side]
             if value == before:
@@ -385,9 +396,9 @@ def _root(
 
 
 def _limit(
-    key: Number, name: str, target: float, off: Callable[[float], float | None], seen: dict[float, float | None]
+    key: Number, name: str, target: float, off: Callable[[float], float | None] | None, seen: dict[float, float | None]
 ) -> Refused:
-    """The refusal of a wish, with the nearest that the key can give."""
+    """The refusal of a wish, with the nearest that the key can give; `off` is None where the time is over."""
     known = {value: miss for value, miss in seen.items() if miss is not None}
     if not known:
         return Refused(f"{name}: no value of {key.name} from {key.range[0]:g} to {key.range[1]:g} makes a mechanism")
@@ -396,19 +407,23 @@ def _limit(
     at = places.index(best)
     left, right = places[max(0, at - 1)], places[min(len(places) - 1, at + 1)]
     side = math.copysign(1.0, known[best])
-    for _ in range(0 if key.whole else 12):  # thirds: the nearest is at an extreme, or at an end of what exists
-        one, two = left + (right - left) / 3.0, right - (right - left) / 3.0
-        misses = [off(one), off(two)]
-        far = [math.inf if miss is None else abs(miss) for miss in misses]
-        for value, miss in zip((one, two), misses, strict=True):
-            if miss is not None and abs(miss) < abs(known[best]):
-                best, known[value] = value, miss
-        left, right = (left, two) if far[0] <= far[1] else (one, right)
+    try:
+        for _ in range(0 if key.whole or off is None else 12):  # thirds: it is at an extreme, or where no more exists
+            one, two = left + (right - left) / 3.0, right - (right - left) / 3.0
+            misses = [off(one), off(two)]  # type: ignore[misc]
+            far = [math.inf if miss is None else abs(miss) for miss in misses]
+            for value, miss in zip((one, two), misses, strict=True):
+                if miss is not None and abs(miss) < abs(known[best]):
+                    best, known[value] = value, miss
+            left, right = (left, two) if far[0] <= far[1] else (one, right)
+        tried = "" if off is not None else f" of {len(seen)} values tried in {_SECONDS:g} s"
+    except _Late:
+        tried = f" of {len(seen)} values tried in {_SECONDS:g} s"
     word = "at least" if side > 0.0 else "at most"
     reached = target + known[best]
     return Refused(
         f"{name} {target:g} cannot be had by {key.name} from {key.range[0]:g} to {key.range[1]:g}: "
-        f"{word} {reached:.6g}, with {key.name} {best:.6g}"
+        f"{word} {reached:.6g}, with {key.name} {best:.6g}{tried}"
     )
 
 
@@ -500,8 +515,8 @@ class Grip:
                 self.stopped = ""
                 break
             step = self._sizes * (np.linalg.pinv(self._slopes * self._sizes, rcond=1e-4) @ miss)
-            step *= min(1.0, 0.3 / max(1e-12, float(np.max(np.abs(step / self._sizes)))))
-            if not self._go(step):
+            share = float(np.max(np.abs(step / self._sizes)))
+            if share < 1e-12 or not self._go(step * min(1.0, 0.3 / share)):  # no key leads nearer, or none may
                 break
         made = self._made(self._values, on_grid=True)
         if made != self._built and self._point(made) is not None:

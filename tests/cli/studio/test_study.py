@@ -18,7 +18,8 @@ kind: three-gear-four-bar
 gears: {module: 2, crank: 40, idler: 72, output: 40}
 links: {crank: 38.857, frame: 153.552}   # measured
 """
-ROCKER = (Path(__file__).parents[3] / "designs/crank_rocker_links.yaml").read_text(encoding="utf-8")
+DESIGNS = Path(__file__).parents[3] / "designs"
+ROCKER = (DESIGNS / "crank_rocker_links.yaml").read_text(encoding="utf-8")
 
 
 def _keys(text: str) -> dict[str, Number]:
@@ -58,6 +59,59 @@ def test_a_wish_is_refused_with_the_limit() -> None:
     assert told < 75.0
 
 
+def _example(name: str) -> tuple[str, str]:
+    path = DESIGNS / f"{name}.yaml"
+    return path.read_text(encoding="utf-8"), str(path)
+
+
+def _keys_of(text: str, file: str) -> dict[str, Number]:
+    study = Study(text, file)
+    return {number.name: number for number in numbers(study.loaded, study.kind.spec_model(), {})}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "command", "quantity", "target", "key"),
+    [
+        ("planar_watt", "analyze", "output.swing", 45.0, "links.crank[2]"),
+        ("crank_rocker_links", "analyze", "rocker_swing", 70.0, "links.crank"),
+        ("lift_cam", "cam", "max_radius", 80.0, "follower.roller_radius"),
+    ],
+)
+def test_wishes_are_met_by_other_kinds(name: str, command: str, quantity: str, target: float, key: str) -> None:
+    text, file = _example(name)
+    found = wished(text, file, command, quantity, target, _keys_of(text, file)[key])
+    reached = Study(found.text, file).design(command).quantity(quantity)
+    assert reached is not None
+    assert reached.value == pytest.approx(target, rel=5e-5)
+    changed = {name: key.value for name, key in _keys_of(found.text, file).items()}
+    before = {name: key.value for name, key in _keys_of(text, file).items()}
+    assert {name for name, value in changed.items() if value != before[name]} == {key}
+
+
+@pytest.mark.slow
+def test_wishes_are_refused_with_the_limit_by_other_kinds() -> None:
+    text, file = _example("crank_rocker_links")
+    with pytest.raises(Refused, match=r"at most 97\.34\d*, with links\.crank 60$"):  # the end of the slider
+        wished(text, file, "analyze", "rocker_swing", 200.0, _keys_of(text, file)["links.crank"])
+    text, file = _example("loaded_cam")
+    with pytest.raises(Refused, match=r"at least 25\.6\d*, with cam\.prime_radius 78\.8") as refused:
+        wished(text, file, "cam", "max_pressure_angle", 4.0, _keys_of(text, file)["cam.prime_radius"])
+    told = float(str(refused.value).partition("at least ")[2].partition(",")[0])
+    for radius in (76.0, 80.0, 90.0):
+        study = Study(with_value(text, ("cam", "prime_radius"), radius), file)
+        assert study.design("cam").quantity("max_pressure_angle").value > told  # type: ignore[union-attr]
+
+
+@pytest.mark.slow
+def test_a_wish_that_takes_long_is_refused_with_the_nearest_of_what_was_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That of a planar mechanism had been refused without a number."""
+    monkeypatch.setattr("gearlink.cli.studio.study._SECONDS", 1.0)
+    text, file = _example("planar_watt")
+    with pytest.raises(Refused, match=r"at most [\d.]+, with links\.crank\[2\] [\d.]+ of \d+ values tried in 1 s$"):
+        wished(text, file, "analyze", "output.swing", 170.0, _keys_of(text, file)["links.crank[2]"])
+
+
 def test_a_whole_number_is_chosen_among_whole_numbers() -> None:
     found = wished(FEED, "feed.yaml", "analyze", "mean_ratio", 2.0, _keys(FEED)["gears.output"])
     assert (found.value, found.result) == (20.0, pytest.approx(2.0, rel=1e-12))
@@ -76,6 +130,42 @@ def test_a_joint_follows_the_hand(fraction: float) -> None:
         "links.crank",
         "links.frame",
     ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "which", "fraction"),
+    [("planar_watt", "C", 0.13), ("crank_rocker_links", "C", 0.13), ("loaded_cam", ("parts", 1, 1), 0.13)],
+)
+def test_joints_of_other_kinds_follow_the_hand(name: str, which: str | tuple[str, int, int], fraction: float) -> None:
+    text, file = _example(name)
+    keys = [key for key in _keys_of(text, file).values() if key.is_geometry]
+    at = Study(text, file).scene(np.array([fraction]))
+    if isinstance(which, str):
+        which = ("marks", next(k for k, mark in enumerate(at.marks) if mark.text == which), 0)
+    goal = point_of(at, which) + complex(1.0, -0.8)
+    made = Grip(text, file, which, fraction, keys).to(goal)
+    reached = point_of(Study(made, file).scene(np.array([fraction])), which)
+    assert abs(reached - goal) < 0.15  # lengths and angles on the grid of what can be built
+    before = {key.name: key.value for key in keys}
+    changed = {name for name, key in _keys_of(made, file).items() if key.value != before.get(name, key.value)}
+    assert changed
+    locked = sorted(changed)[0]
+    rest = [key for key in keys if key.name != locked]
+    again = Grip(text, file, which, fraction, rest).to(goal)
+    assert _keys_of(again, file)[locked].value == before[locked]
+
+
+def test_a_hand_that_no_key_can_follow_moves_nothing() -> None:
+    """The crank alone, pulled across its own direction: there is no step, and none is divided by."""
+    text, file = _example("ty460_slider_crank")
+    keys = [_keys_of(text, file)["stroke"]]
+    at = Study(text, file).scene(np.array([0.25]))
+    which = ("marks", next(k for k, mark in enumerate(at.marks) if mark.text == "E"), 0)
+    grip = Grip(text, file, which, 0.25, keys)
+    start = point_of(at, which)
+    along = complex(*grip._slopes[:, 0])
+    assert grip.to(start + 1j * along / abs(along)) == text
 
 
 def test_the_keys_that_are_locked_stay() -> None:
