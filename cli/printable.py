@@ -8,6 +8,7 @@ for commands.
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable
 from typing import Any
 
@@ -24,6 +25,22 @@ def visible(text: str, encoding: str = "utf-8") -> str:
     if text.isascii() and text.isprintable() and "::" not in text and "##" not in text:
         return text
     return "".join(glyphs(text, encoding))
+
+
+def for_shell(word: str) -> str:
+    """A word of a command line in quotes where it needs them: those of a Unix shell, or those that all of Windows take.
+
+    Example
+        >>> print(for_shell("links.crank=16.4"), for_shell("a design.yaml"))
+        links.crank=16.4 'a design.yaml'
+    """
+    if sys.platform == "win32":
+        from subprocess import list2cmdline
+
+        return list2cmdline([word])
+    from shlex import quote
+
+    return quote(word)
 
 
 def visible_lines(lines: Iterable[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shlex
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -15,6 +14,7 @@ from gearlink.cli.evaluate import checks_of, open_design, read_spec, refusals_lo
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
+from gearlink.cli.printable import for_shell
 from gearlink.cli.progress import counted, patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
@@ -114,7 +114,7 @@ def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=name)])
         chosen += found
     if not chosen:
-        help_ = f"its sheet is drawn by `gearlink {spec.commands()[0]} {shlex.quote(source)} --plot`; {_who_has()}"
+        help_ = f"its sheet is drawn by `gearlink {spec.commands()[0]} {for_shell(source)} --plot`; {_who_has()}"
         message = f"`sheet` draws motion, timing, pressure angles and cams, of which this {kind} has none"
         raise DesignFileError([Diagnostic("GL113", message, "<command line>", key="kind", help=help_)])
     return list(dict.fromkeys(chosen))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import shlex
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, re
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import STREAM, Format, Options
-from gearlink.cli.printable import json_text
+from gearlink.cli.printable import for_shell, json_text
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
@@ -178,7 +177,7 @@ def overrides(changes: Sequence[Change]) -> str:
         "--set 'teeth[0]=17' --set cam.rocker_radius=null"
     """
     last = {change.path: change.new for change in changes}
-    return " ".join(f"--set {shlex.quote(f'{path}={json.dumps(value)}')}" for path, value in last.items())
+    return " ".join(f"--set {for_shell(f'{path}={json.dumps(value)}')}" for path, value in last.items())
 
 
 def _shown(value: Any) -> str:

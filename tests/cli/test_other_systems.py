@@ -20,7 +20,7 @@ from unittest.mock import Mock
 
 import pytest
 
-from gearlink.cli import files, progress
+from gearlink.cli import files, printable, progress
 from gearlink.cli import main as program
 from gearlink.cli.batch import summary
 from gearlink.cli.batch.summary import Outcome
@@ -139,6 +139,22 @@ def test_a_console_of_windows_keeps_its_own_stream_and_heeds_colours(
     monkeypatch.setattr(program, "sys", SimpleNamespace(platform="win32"))
     assert program._output(stream, BrokenPipeError) is stream
     assert kernel.modes == modes
+
+
+@pytest.mark.parametrize(
+    ("system", "word", "quoted"),
+    [
+        ("linux", "teeth[0]=17", "'teeth[0]=17'"),
+        ("win32", "teeth[0]=17", "teeth[0]=17"),  # cmd.exe would pass single quotes on
+        ("win32", "x=[0.2, -0.1]", '"x=[0.2, -0.1]"'),
+        ("win32", "C:\\my designs\\feed.yaml", '"C:\\my designs\\feed.yaml"'),
+    ],
+)
+def test_options_are_quoted_for_the_shell_at_hand(
+    system: str, word: str, quoted: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(printable, "sys", SimpleNamespace(platform=system))
+    assert printable.for_shell(word) == quoted
 
 
 def test_progress_on_a_console_of_windows_goes_through_its_stream(monkeypatch: pytest.MonkeyPatch) -> None:
