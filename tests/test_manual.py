@@ -65,6 +65,20 @@ def test_equations_are_typeset(page: str, block: str) -> None:
     assert not re.search(r"\\[a-z]", left), f"{page}: {left}"
 
 
+def test_an_equation_at_the_start_of_a_line_stays_in_its_paragraph() -> None:
+    from markdown import markdown
+
+    made = markdown(typeset.inline("$K_v$ follows from $B_p$, $B_f$") + "\n" + typeset.inline("$B_k$ and so on"))
+    assert made.count("<p>") == 1
+    assert made.startswith("<p><span><math")
+
+
+def test_keys_of_a_section_that_a_file_need_not_have_are_not_the_kinds_own() -> None:
+    table = tables.keys("three-gear-four-bar", ["own"])
+    assert "| `gears.module` |" in table
+    assert "`gears.rating.life`" not in table
+
+
 def test_no_block_that_is_to_be_filled_is_indented() -> None:
     """Within a list it would be left as it is."""
     for path, text in WRITTEN.items():

@@ -36,7 +36,7 @@ def keys(kind: str, sections: list[str]) -> str:
     found = [
         key
         for key in found
-        if not own or key.required or len(_kinds_by_key()[key.path.rpartition(".")[2], key.words]) <= _FEW
+        if not own or _needed(kind, key) or len(_kinds_by_key()[key.path.rpartition(".")[2], key.words]) <= _FEW
     ]
     if not found:
         raise ValueError(f"{kind} has no section {' '.join(sections)}")
@@ -63,6 +63,13 @@ def _rows(found: list[SpecKey]) -> Iterator[str]:
 
 _MANY = 4
 """Keys of a section that are not said again."""
+
+
+def _needed(kind: str, key: SpecKey) -> bool:
+    """Whether no file of the kind goes without a key: it is required, and so are the sections that hold it."""
+    names = key.path.split(".")
+    above = {".".join(names[:i]) for i in range(1, len(names))}
+    return key.required and all(each.required for each in keys_of(kind) if each.path in above)
 
 
 _FEW = 4
