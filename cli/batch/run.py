@@ -25,7 +25,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions, Unchanged
-from gearlink.cli.batch.summary import Fix, Outcome, write_batch
+from gearlink.cli.batch.summary import Fix, JsonLines, Outcome, write_batch
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, read_plain_file, safe_stem, stem_of, write_atomically
@@ -164,11 +164,13 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     except DesignFileError as error:
         return _refused(error, options)
     try:
-        results, interrupted = run_files(files, options)
+        lines = JsonLines(files, sys.stdout) if options.format is BatchFormat.JSONL else None
+        results, interrupted = run_files(files, options, lines)
     except DesignFileError as error:  # of the cluster; those of files stand among the results
         return _refused(error, options)
     results.sort(key=lambda outcome: outcome.file)
-    write_batch(results, options, sys.stdout)
+    if lines is None:
+        write_batch(results, options, sys.stdout)
     if interrupted:
         print(f"interrupted after {len({r.file for r in results})} of {amount(len(files), 'file')}", file=sys.stderr)
         return ExitCode.INTERRUPTED
@@ -305,8 +307,10 @@ _LOOK_SECONDS = 0.2
 T = TypeVar("T")
 
 
-def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcome], bool]:
-    """Outcomes of the files that were finished, and whether the user interrupted.
+def run_files(
+    files: Sequence[Path], options: BatchOptions, lines: JsonLines | None = None
+) -> tuple[list[Outcome], bool]:
+    """Outcomes of the files that were finished, and whether the user interrupted; `lines` are written meanwhile.
 
     Notes
         A sample from the whole list runs here, until it has taken as long as several processes take to pay; how long
@@ -314,13 +318,21 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
     """
     results: list[Outcome] = []
     shown = progress(len(files), "designs", quiet=options.design.quiet)
+    interrupted = False
     with shown as advance, calm() as asked, closing(_each(files, options)) as each:
         for done, found in each:
-            results += found
+            kept = [outcome if outcome.shown else outcome.for_output(options.format) for outcome in found]
+            if lines is not None:
+                lines.add(kept)
+                kept = [replace(outcome, shown="") for outcome in kept]
+            results += kept
             advance(done)
             if asked():  # processes are ended at once, this one ends the file that it is at
-                return results, True
-    return results, False
+                interrupted = True
+                break
+    if lines is not None:
+        lines.end()
+    return results, interrupted
 
 
 def _each(files: Sequence[Path], options: BatchOptions) -> Generator[tuple[int, list[Outcome]]]:
@@ -381,8 +393,9 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
                     if future is None:
                         yield 0, []
                     elif not isinstance(future.exception(), BrokenExecutor):
-                        finished.add(id(given[future]))
-                        yield len(given[future]), future.result()
+                        files = given.pop(future)  # with what it found
+                        finished.add(id(files))
+                        yield len(files), future.result()
         except OSError:  # at the first submission, which starts the processes
             refused = True
         left = [files for files in left if id(files) not in finished]
@@ -426,7 +439,9 @@ def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[
 
 
 def _chunk(files: Sequence[Path], options: BatchOptions) -> list[Outcome]:
-    return [outcome for path in files for outcome in outcomes(path, options)]
+    found = [outcome for path in files for outcome in outcomes(path, options)]
+    # A worker of a cluster has another path of the file, which is put right before the outcome is shown.
+    return found if options.dask else [outcome.for_output(options.format) for outcome in found]
 
 
 def _alone(path: Path, options: BatchOptions) -> list[Outcome]:

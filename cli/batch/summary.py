@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from pathlib import PurePath
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePath
 from typing import IO, TYPE_CHECKING, Any
 from xml.sax.saxutils import escape, quoteattr
 
@@ -40,7 +41,7 @@ class Outcome:
     `places` holds line and column of each check that did not pass, where the output of the batch shows them, `fixes`
     what its remedy replaces together; nothing where the file does not have all of its values.
     `wrote` names the files of its results; of a design that was not computed `unchanged` is the report in them, where
-    the output of the batch shows reports.
+    the output of the batch shows reports. `shown` is the whole result as JSON, where the output shows that.
     """
 
     file: str
@@ -55,6 +56,14 @@ class Outcome:
     seconds: float = 0.0
     wrote: tuple[str, ...] = ()
     unchanged: dict[str, Any] | None = None
+    shown: str = ""
+
+    def for_output(self, form: BatchFormat) -> Outcome:
+        """No more than what the output needs of it: a report may take 30 kB of memory, and a batch has many."""
+        shown = json_text(_entry(self)) if form in (BatchFormat.JSON, BatchFormat.JSONL) else ""
+        unchanged: dict[str, Any] | None = None if self.unchanged is None else {}
+        report = self.report and replace(self.report, quantities=(), checks=tuple(self.to_repair), tables=(), key=())
+        return replace(self, shown=shown, unchanged=unchanged, report=report)
 
     @property
     def has_report(self) -> bool:
@@ -101,9 +110,7 @@ def write_batch(results: Sequence[Outcome], options: BatchOptions, stream: IO[st
     if options.format is BatchFormat.TABLE:
         _show(results, options)
         return
-    if options.format is BatchFormat.JSONL:
-        stream.writelines(json_text(_entry(outcome)) + "\n" for outcome in results)
-    elif options.format is BatchFormat.JSON:
+    if options.format is BatchFormat.JSON:
         stream.writelines(_json(results))
     else:
         stream.write(_WRITERS[options.format](results))
@@ -127,8 +134,29 @@ def _json(results: Sequence[Outcome]) -> Iterator[str]:
     whole = {"gearlink": FORMAT, "command": "batch", "ok": worst == 0, "summary": summary(results)}
     yield json_text(whole).removesuffix("}") + ', "designs": ['
     for i, outcome in enumerate(results):
-        yield (", " if i else "") + json_text(_entry(outcome))
+        yield (", " if i else "") + outcome.shown
     yield "]}\n"
+
+
+class JsonLines:
+    """JSON lines in the order of the files: each is written as soon as those of all files before it are there."""
+
+    def __init__(self, files: Sequence[Path], stream: IO[str]) -> None:
+        self._left = deque(sorted(map(str, files)))
+        self._stream = stream
+        self._waiting: dict[str, list[str]] = {}
+
+    def add(self, found: Sequence[Outcome]) -> None:
+        """All outcomes of some files."""
+        for outcome in found:
+            self._waiting.setdefault(outcome.file, []).append(outcome.shown + "\n")
+        while self._left and self._left[0] in self._waiting:
+            self._stream.writelines(self._waiting.pop(self._left.popleft()))
+
+    def end(self) -> None:
+        """Write what waits for files that were not finished."""
+        for file in sorted(self._waiting):
+            self._stream.writelines(self._waiting.pop(file))
 
 
 def _rows(results: Sequence[Outcome]) -> list[tuple[str, str, str, str]]:

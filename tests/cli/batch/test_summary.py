@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
-from gearlink.cli.batch.summary import Outcome, write_batch
+from gearlink.cli.batch.summary import JsonLines, Outcome, write_batch
+from gearlink.core.base.report import Check, Quantity, Report
 
 
 class Pieces:
@@ -26,14 +28,36 @@ class Pieces:
             self.write(line)
 
 
-RESULTS = [Outcome(f"{i:03d}.yaml", "gear-pair", "pair", "gear", 2) for i in range(50)]
+RESULTS = [Outcome(f"{i:03d}.yaml", "gear-pair", "pair", "gear", 2).for_output(BatchFormat.JSON) for i in range(50)]
 
 
-def test_lines_are_written_one_after_the_other() -> None:
+def test_lines_are_written_in_the_order_of_the_files_as_soon_as_they_can_be() -> None:
     stream: Any = Pieces()
-    write_batch(RESULTS, BatchOptions(format=BatchFormat.JSONL), stream)
-    assert len(stream.pieces) == 50
-    assert len(set(map(len, stream.pieces))) == 1
+    lines = JsonLines([Path(result.file) for result in reversed(RESULTS)], stream)
+
+    def written() -> list[str]:
+        return [json.loads(line)["file"] for line in stream.pieces]
+
+    lines.add(RESULTS[2:4])
+    assert written() == []
+    lines.add(RESULTS[:2])
+    assert written() == [result.file for result in RESULTS[:4]]
+    lines.add(RESULTS[9:10])
+    lines.add(RESULTS[7:8])  # interrupted here
+    lines.end()
+    assert written()[4:] == ["007.yaml", "009.yaml"]
+
+
+def test_an_outcome_keeps_no_more_than_the_output_shows() -> None:
+    checks = (Check("GL301", "gap", "pass", "gap"), Check("GL302", "shaft", "fail", "shaft"))
+    quantity = Quantity("module", 2.0, "mm", "m", "module")
+    whole = Outcome("a.yaml", "k", "n", "gear", 1, Report("k", "n", "gear", (quantity,), checks))
+    light = whole.for_output(BatchFormat.JSON)
+    assert light.report is not None
+    assert json.loads(light.shown)["quantities"]["module"]["value"] == 2.0
+    assert (light.report.quantities, [one.code for one in light.report.checks]) == ((), ["GL302"])
+    assert (light.verdict, light.findings) == (whole.verdict, whole.findings)
+    assert whole.for_output(BatchFormat.TABLE).shown == ""
 
 
 @pytest.mark.parametrize("count", [0, 1, 50])
