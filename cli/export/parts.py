@@ -18,7 +18,7 @@ from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
-from gearlink.core.mechanism.vectors import Place, place_of, rates_of
+from gearlink.core.mechanism.vectors import place_of, rates_of
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.checks import undercut_checks
 from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -32,7 +32,6 @@ from gearlink.core.parts.gears.tooth.teeth import rim_radius
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
     from gearlink.core.machines.wide_swing.strokes import AnyCam
-    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.parts.cams.flat_cam import FlatCam
 
 
@@ -1063,7 +1062,7 @@ def _path(design: Any, name: str) -> Part:
         UnknownPoint - for a point that no link has, or that stands still
     """
     motion, given = design.moving, design.moving.input
-    place, per = _place(motion.at(np.linspace(given.start, given.end, _LOOKS), 0), name), given.unit
+    place, per = place_of(motion.at(np.linspace(given.start, given.end, _LOOKS), 0), name), given.unit
 
     def points(q: Reals) -> Points:
         return np.asarray([rates_of(motion.at(q, 0), place).value])
@@ -1085,12 +1084,6 @@ def _path(design: Any, name: str) -> Part:
         notes=("frame: that of the design", "rates are per input"),
         extra_columns=(f"{given.column} [{'deg' if per == 'rad' else 'mm'}]", *columns),
     )
-
-
-def _place(mechanism: Mechanism, name: str) -> Place:
-    """A point by its name on its link, or as vectors are asked for."""
-    links = [link for link, held in mechanism.links.items() if name in held.points]
-    return Place(links[0], mechanism.links[links[0]].points[name]) if links else place_of(mechanism, name)
 
 
 def _gears(design: Any) -> Makers:

@@ -75,7 +75,7 @@ def moving_points(mechanism: Mechanism) -> dict[str, Place]:
 
 
 def place_of(mechanism: Mechanism, name: str) -> Place:
-    """The point of a name: one of `moving_points`, or LINK@X/Y in coordinates of the link [mm].
+    """The point of a name: one of `moving_points`, the named point of a link alone, or LINK@X/Y on it [mm].
 
     Raises
         UnknownPoint
@@ -83,6 +83,9 @@ def place_of(mechanism: Mechanism, name: str) -> Place:
     known = moving_points(mechanism)
     if name in known:
         return known[name]
+    own = [link for link, held in mechanism.links.items() if name in held.points]
+    if len(own) == 1:
+        return Place(own[0], mechanism.links[own[0]].points[name])
     link, at, text = name.partition("@")
     if at and link in mechanism.links:
         try:
