@@ -551,7 +551,7 @@ _DELIMITERS = (";", "\t", ",")
 
 
 def read_points(loaded: LoadedFile) -> tuple[list[Diagnostic], set[str]]:
-    """Put the points of every file of numbers instead of its name; those of table laws and measured profiles.
+    """Put the points of every file of numbers instead of its name; those of table laws, measured profiles and motions.
 
     Returns
         wrong, keys : what is wrong with the files, at its place in them; keys of what has no points for that
@@ -566,12 +566,19 @@ def _filled(loaded: LoadedFile, node: Any, path: KeyPath, wrong: list[tuple[KeyP
         return [_filled(loaded, item, (*path, k), wrong) for k, item in enumerate(node)]
     if not isinstance(node, dict):
         return node
-    if isinstance(name := node.get("file"), str) and (node.get("type") == "table" or path[-1:] == ("profile",)):
-        if "points" in node:
+    of_motion = path[-1:] == ("motion",)
+    if isinstance(name := node.get("file"), str) and (
+        of_motion or node.get("type") == "table" or path[-1:] == ("profile",)
+    ):
+        into = "table" if of_motion else "points"
+        if into in node:
             return node  # the model refuses both
         try:
-            points = _points(loaded, name, (*path, "file"))
-            return {**{key: item for key, item in node.items() if key != "file"}, "points": points}
+            points = _points(loaded, name, (*path, "file"), _columns(loaded, node, path) if of_motion else None)
+            if of_motion and node.get("degrees") is False:
+                points = [[math.degrees(angle), value] for angle, value in points]
+            read = ("file", "columns", "degrees") if of_motion else ("file",)
+            return {**{key: item for key, item in node.items() if key not in read}, into: points}
         except DesignFileError as error:
             wrong += [(path, each) for each in error.diagnostics]
             return node
@@ -579,7 +586,16 @@ def _filled(loaded: LoadedFile, node: Any, path: KeyPath, wrong: list[tuple[KeyP
     return node if all(found[key] is node[key] for key in found) else found
 
 
-def _points(loaded: LoadedFile, name: str, path: KeyPath) -> list[list[float]]:
+def _columns(loaded: LoadedFile, node: dict[str, Any], path: KeyPath) -> tuple[int, int]:
+    """The columns of a file that count, from 1."""
+    given = node.get("columns", [1, 2])
+    if not (isinstance(given, list) and len(given) == 2 and all(type(each) is int and each > 0 for each in given)):
+        message = "columns takes the numbers of two columns, from 1"
+        raise DesignFileError([loaded.report("GL107", message, (*path, "columns"), help="write columns: [1, 2]")])
+    return given[0], given[1]
+
+
+def _points(loaded: LoadedFile, name: str, path: KeyPath, columns: tuple[int, int] | None = None) -> list[list[float]]:
     place = base_path(loaded.file, name)
     if place.suffix.lower() in (".xlsx", ".xls", ".ods"):
         message = f"{name} is a workbook of a spreadsheet"
@@ -594,12 +610,14 @@ def _points(loaded: LoadedFile, name: str, path: KeyPath) -> list[list[float]]:
         message = f"{name} is no text in UTF-8"
         raise DesignFileError([loaded.report("GL182", message, path, help="save it as CSV in UTF-8")]) from None
     note(place, content)
-    return rows_of(Source(str(place), text))
+    return rows_of(Source(str(place), text), columns)
 
 
-def rows_of(source: Source) -> list[list[float]]:
+def rows_of(source: Source, columns: tuple[int, int] | None = None) -> list[list[float]]:
     """The pairs of numbers of a text: the delimiter is counted, lines of words at the top are skipped.
 
+    Parameters
+        columns : (int, int) - which of its columns, from 1; by default a row has two
     Notes
         A decimal comma stands where the delimiter is another character.
     Raises
@@ -612,14 +630,16 @@ def rows_of(source: Source) -> list[list[float]]:
         if not line or line.startswith("#"):
             continue
         cells = line.split(delimiter)
-        values = [_number(cell, delimiter) for cell in cells]
-        if not rows and values[0] is None:  # words at the top
+        chosen = range(len(cells)) if columns is None else [k - 1 for k in columns if k <= len(cells)]
+        values = [_number(cells[k], delimiter) for k in chosen]
+        if not rows and (not values or values[0] is None):  # words at the top
             continue
-        if len(cells) != 2 or None in values:
-            bad = values.index(None) if None in values else min(2, len(cells))
+        if len(values) != 2 or None in values:
+            bad = chosen[values.index(None)] if None in values else min(2, len(cells))
             at = source.line_start(number) + len(delimiter.join(cells[:bad])) + (bad > 0)
-            what = f"{cells[bad].strip()!r} is no number" if None in values else f"{len(cells)} numbers in a row"
-            fix = "give two numbers a row, with a delimiter between them"
+            count = f"{len(cells)} numbers in a row" if columns is None else f"no column {max(columns)} in a row"
+            what = f"{cells[bad].strip()!r} is no number" if None in values else count
+            fix = "give two numbers a row, with a delimiter between them, or name two of the columns"
             raise DesignFileError([source.report("GL182", what, min(at, len(source.text)), help=fix)])
         rows.append([value for value in values if value is not None])
         if len(rows) > _MOST_ROWS:

@@ -215,7 +215,7 @@ def motion_of(
         NoSolution - at `motion`, for a law that cannot be or a lift that does not return
     """
     if not isinstance(motion, list):
-        return spline([math.radians(angle) for angle, _ in motion.table], [unit * lift for _, lift in motion.table])
+        return spline([math.radians(angle) for angle, _ in motion.rows], [unit * lift for _, lift in motion.rows])
     pieces: list[Piece] = []
     given: dict[int, tuple[float | None, float | None]] = {}
     start, lift = 0.0, unit * initial_lift

@@ -47,11 +47,43 @@ class Segment(Spec):
         return self
 
 
-class MotionTable(Spec):
+Column = Annotated[int, Field(ge=1, le=1000, json_schema_extra={"unit": "1"})]
+
+
+class FromFile(Spec):
+    """A table that may stand in a file of numbers, which is read with the design file."""
+
+    table: list[list[float]] | None = None
+    file: str | None = Field(None, description="CSV file with these columns, instead of table")
+    columns: Annotated[list[Column], Field(min_length=2, max_length=2), Entries("[angle, value]", "[1, 2]")] | None = (
+        Field(None, description="of a file: numbers of the two columns; default: the first two")
+    )
+    degrees: bool = Field(True, description="of a file: whether its angles are in deg; false: in rad")
+
+    @property
+    def rows(self) -> list[list[float]]:
+        """The rows of the table."""
+        assert self.table is not None, "read with the design file"
+        return self.table
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.table is None) == (self.file is None):
+            message = "table and file exclude each other\nomit table or file" if self.file else "give table, or file"
+            raise PydanticCustomError(
+                "GL111", "{message}", {"message": message, "key": "file" if self.file else "table"}
+            )
+        if self.table is None:
+            message = "the file is read with the design file\ngive a table here"
+            raise PydanticCustomError("GL111", "{message}", {"message": message, "key": "file"})
+        return self
+
+
+class MotionTable(FromFile):
     """Measured or computed lifts, through which the periodic quintic spline is laid."""
 
-    table: Annotated[list[Row], Field(min_length=FEWEST_POINTS, max_length=2000)] = Field(
-        description="pairs [cam angle, lift], ascending from 0 to 360"
+    table: Annotated[list[Row], Field(min_length=FEWEST_POINTS, max_length=2000)] | None = Field(
+        None, description="pairs [cam angle, lift], ascending from 0 to 360"
     )
 
 
@@ -84,7 +116,7 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
         PydanticCustomError - at the key `motion`
     """
     if isinstance(motion, MotionTable):
-        _require_table(motion.table)
+        _require_table(motion.rows)
         return
     ends = [segment.to for segment in motion]
     for before, after in pairwise(ends):

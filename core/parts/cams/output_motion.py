@@ -14,7 +14,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.spec import Entries, Spec
 from gearlink.core.base.wording import unlike
-from gearlink.core.parts.cams.motion_spec import FEWEST_POINTS, Segment
+from gearlink.core.parts.cams.motion_spec import FEWEST_POINTS, FromFile, Segment
 from gearlink.core.parts.cams.spec import SegmentLaw
 
 if TYPE_CHECKING:
@@ -31,11 +31,11 @@ OutputRow = Annotated[
 ]
 
 
-class OutputTable(Spec):
+class OutputTable(FromFile):
     """Outputs through which the quintic spline is laid that goes on with each revolution."""
 
-    table: Annotated[list[OutputRow], Field(min_length=FEWEST_POINTS, max_length=2000)] = Field(
-        description="pairs [input angle, output angle], the input ascending from 0 to 360"
+    table: Annotated[list[OutputRow], Field(min_length=FEWEST_POINTS, max_length=2000)] | None = Field(
+        None, description="pairs [input angle, output angle], the input ascending from 0 to 360"
     )
 
 
@@ -54,7 +54,7 @@ class OutputSegment(Spec):
 def _whole_turns(motion: list[OutputSegment] | OutputTable) -> list[OutputSegment] | OutputTable:
     """Refuse a motion that does not take a revolution of the input, or leaves the output between whole revolutions."""
     if isinstance(motion, OutputTable):
-        ends, gained = [row[0] for row in motion.table], motion.table[-1][1] - motion.table[0][1]
+        ends, gained = [row[0] for row in motion.rows], motion.rows[-1][1] - motion.rows[0][1]
         first = ends[0]
     else:
         ends = [segment.to for segment in motion]
@@ -94,7 +94,7 @@ class OutputMotion:
         from gearlink.core.parts.cams.follower_motion import motion_of, spline
 
         if isinstance(given, OutputTable):
-            rows = [(math.radians(angle), math.radians(output)) for angle, output in given.table]
+            rows = [(math.radians(angle), math.radians(output)) for angle, output in given.rows]
             self.even = (rows[-1][1] - rows[0][1]) / TURN
             return spline([angle for angle, _ in rows], [output - self.even * angle for angle, output in rows])
         segments = [

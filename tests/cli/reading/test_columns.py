@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from gearlink.cli.reading.design_file import load, rows_of, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Source
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.motion_law import MotionLawSpec
 
 ROWS = [[0.0, 0.0], [0.25, 0.1], [1.0, 1.0]]
@@ -67,3 +70,48 @@ def test_a_file_that_cannot_be_read_is_the_only_error(tmp_path: Path, name: str,
     (found,) = refused.value.diagnostics
     assert (found.code, found.line) == (code, 3)
     assert help in found.help
+
+
+CAM = """
+kind: disc-cam
+name: c
+motion: {}
+follower: {{type: translating-roller, roller_radius: 9}}
+cam: {{prime_radius: 60}}
+"""
+LIFTS = [[0.0, 0.0], [90.0, 16.0], [150.0, 20.0], [220.0, 14.5], [360.0, 0.0]]
+
+
+def cam(folder: Path, motion: str) -> Any:
+    path = folder / "cam.yaml"
+    path.write_text(CAM.format(motion), encoding="utf-8")
+    return validate(load(str(path)), KINDS["disc-cam"].spec_model())
+
+
+def test_a_motion_is_read_from_two_columns_of_a_file(tmp_path: Path) -> None:
+    rows = "".join(f"{k};{math.radians(angle)!r};{lift}\n" for k, (angle, lift) in enumerate(LIFTS)).replace(".", ",")
+    (tmp_path / "lift.csv").write_text("row;angle;lift\n" + rows, encoding="utf-8")
+    made = cam(tmp_path, "{file: lift.csv, columns: [2, 3], degrees: false}")
+    assert [value for row in made.motion.rows for value in row] == pytest.approx(
+        [value for row in LIFTS for value in row], rel=1e-15
+    )
+    (tmp_path / "plain.csv").write_text("".join(f"{angle},{lift}\n" for angle, lift in LIFTS), encoding="utf-8")
+    assert cam(tmp_path, "{file: plain.csv}").motion.rows == LIFTS
+
+
+@pytest.mark.parametrize(
+    ("motion", "code", "words"),
+    [
+        ("{file: lift.csv, columns: [1, 5]}", "GL182", "no column 5 in a row"),
+        ("{file: lift.csv, columns: [a, 2]}", "GL107", "numbers of two columns"),
+        ("{file: lift.csv, table: [[0, 0], [9, 1], [10, 1], [360, 0]]}", "GL111", "table and file exclude each other"),
+        ("{file: none.csv}", "GL101", "cannot read"),
+        ("{degrees: true}", "GL111", "give table, or file"),
+    ],
+)
+def test_what_a_motion_cannot_be_read_from(tmp_path: Path, motion: str, code: str, words: str) -> None:
+    (tmp_path / "lift.csv").write_text("0,0,1\n", encoding="utf-8")
+    with pytest.raises(DesignFileError) as refused:
+        cam(tmp_path, motion)
+    assert refused.value.diagnostics[0].code == code
+    assert words in refused.value.diagnostics[0].message

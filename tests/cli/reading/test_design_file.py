@@ -744,4 +744,4 @@ def test_a_missing_list_names_the_keys_of_its_entries() -> None:
         validate(parse(b"kind: disc-cam\n", "x.yaml"), DiscCamSpec)
     help = next(found.help for found in refused.value.diagnostics if found.key == "motion")
     assert "the keys of an entry are to, lift, law" in help
-    assert help.endswith("those of a section are table")
+    assert help.endswith("those of a section are table, file, columns, degrees")
