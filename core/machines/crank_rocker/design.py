@@ -12,6 +12,7 @@ from gearlink.core.base.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import within
 from gearlink.core.mechanism.courses import Shown, all_rates, between, coordinate, motion_table, turned
 from gearlink.core.mechanism.dual import longer
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -117,7 +118,8 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
             try:
                 check_linkage(linkage)
             except NoSolution as error:
-                fix = error.fix if linkage.kind() == "impossible" else "give the range in which the crank moves"
+                reach = "" if linkage.kind() == "impossible" else _reach(linkage)
+                fix = f"give range: [from, to] within {reach}" if reach else error.fix
                 raise NoSolution(error.message, key="links", fix=fix) from error
         return linkage
 
@@ -295,6 +297,23 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         )
 
     remedy = "shorten the crank, or bring coupler and rocker nearer to a right angle"
+
+
+def _reach(linkage: FourBar) -> str:
+    """In words, the crank angles at which a four-bar closes whose crank does not turn fully; "" where it does.
+
+    BD^2 = a^2 + d^2 - 2 a d cos phi,  |b - c| <= BD <= b + c
+    """
+    a, b, c, d = linkage.crank, linkage.coupler, linkage.rocker, linkage.frame
+
+    def angle(apart: float) -> float:
+        return math.degrees(math.acos((a * a + d * d - apart * apart) / (2.0 * a * d)))
+
+    far = angle(b + c) if b + c < a + d else None
+    near = angle(abs(b - c)) if abs(b - c) > abs(a - d) else None
+    if near is None:
+        return "" if far is None else within(-far, far, "deg")
+    return within(near, 360.0 - near if far is None else far, "deg")
 
 
 def inner_places(start: float, end: float) -> list[float]:

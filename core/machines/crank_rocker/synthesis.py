@@ -190,7 +190,8 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
     square = math.fsum((a * a, c * c, frame * frame, -2.0 * a * c * k3))
     if not square > 0.0 or math.isinf(square):
         raise NoSolution(
-            "no linkage goes through these pairs: its coupler would have no real length", fix="move one of them"
+            "no linkage goes through these pairs: its coupler would have no real length",
+            fix="move one of function.pairs",
         )
     b = math.sqrt(square)
     sides = set()
@@ -199,12 +200,14 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
         across = ((joint - pin).conjugate() * (joint - frame)).imag / (b * abs(c))
         if abs(across) < _IN_LINE:
             raise NoSolution(
-                f"coupler and rocker are collinear at pair {number}, which then is a dead centre", fix="move it"
+                f"coupler and rocker are collinear at pair {number}, which then is a dead centre",
+                fix=f"move function.pairs[{number - 1}]",
             )
         sides.add(across > 0.0)
     if len(sides) > 1:
         raise NoSolution(
-            "the pairs lie on different assemblies of their linkage, which cannot pass over", fix="move one"
+            "the pairs lie on different assemblies of their linkage, which cannot pass over",
+            fix="move one of function.pairs",
         )
     crank_offset, rocker_offset = (math.pi if length < 0.0 else 0.0 for length in (a, c))
     return ThroughPairs(abs(a), b, abs(c), crank_offset, rocker_offset, 1 if sides.pop() else -1)
@@ -231,7 +234,7 @@ def _constants(pairs: Sequence[Sequence[float]]) -> tuple[float, float, float]:
                 "these pairs give no linkage of finite length: two of them are alike, or rocker and "
                 "crank turn in proportion"
             ),
-            fix="move one of them",
+            fix="move one of function.pairs",
         )
     k1, k2 = over / det, under / det
     return k1, k2, math.cos(phi - psi) - k1 * math.cos(psi) + k2 * math.cos(phi)
@@ -567,7 +570,7 @@ class FunctionSynthesis(_Synthesis):
         if self._turns:
             return None
         if self._between is None:
-            raise NoSolution(_APART, key="function.pairs", fix="move one of the pairs")
+            raise NoSolution(_APART, key="function.pairs", fix="move one of function.pairs")
         return self._between
 
     def check_full_turn(self) -> Check:
@@ -577,7 +580,7 @@ class FunctionSynthesis(_Synthesis):
             return FULL_TURN.check("pass", f"the linkage is a {kind}: its crank turns fully")
         what = f"the linkage is a {kind}, its crank cannot turn fully"
         if self._between is None:
-            return FULL_TURN.check("warn", f"{what}, and {_APART}", fix="move one of the pairs")
+            return FULL_TURN.check("warn", f"{what}, and {_APART}", fix="move one of function.pairs")
         start, end = (short(math.degrees(angle)) for angle in self._between)
         return FULL_TURN.check("warn", what, aside=f"it moves from {start} to {end} deg")
 

@@ -175,3 +175,23 @@ def test_input_torque_is_the_power_of_the_masses(assembly: int) -> None:
 
     expected = [(energy(phi + h) - energy(phi - h)) / (2 * h) * w**2 for phi in np.radians(table["input_angle"])]
     assert table["input_torque"] == pytest.approx(expected, abs=2e-5 * max(map(abs, expected)))
+
+
+@pytest.mark.parametrize(
+    ("links", "low", "high"),
+    [((80, 60, 70, 100), -91.79, 91.79), ((90, 70, 30, 100), 23.56, 63.25), ((90, 30, 90, 100), 36.34, 78.13)],
+)
+def test_a_crank_that_does_not_turn_is_told_where_it_moves(links: tuple[int, ...], low: float, high: float) -> None:
+    """The linkage closes at both ends of that range, and not a tenth of a degree beyond them."""
+    data = {
+        "kind": "crank-rocker",
+        "name": "x",
+        "links": dict(zip(("crank", "coupler", "rocker", "frame"), links, strict=True)),
+    }
+    with pytest.raises(NoSolution) as refused:
+        _ = design(data).linkage
+    assert refused.value.fix == f"give range: [from, to] within {low} to {high} deg"
+    assert design(data | {"range": [low, high]}).raw("min_transmission_angle") > 0.0
+    for ends in ([low - 0.1, high], [low, high + 0.1]):
+        with pytest.raises(NoSolution):
+            design(data | {"range": ends}).raw("min_transmission_angle")
