@@ -12,7 +12,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, width
 from gearlink.cli.verification.cases import Case, Number, decimals, names, sources
-from gearlink.core.base.errors import named
+from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.base.report import Quantity, Report, Table
 
 if TYPE_CHECKING:
@@ -168,8 +168,6 @@ def computed(cases: Iterable[Case]) -> Iterator[Outcome]:
         >>> [(round(each.computed, 3), each.met) for each in computed([case])]
         [(28.035, True)]
     """
-    from gearlink.core.base.errors import GearlinkError
-
     for case in cases:
         try:
             ask = _Kernel(case) if case.kernel else _Designed(case)

@@ -15,10 +15,12 @@ from gearlink.cli.views.figures.gears import (
     COLORS,
     Mesh,
     contact_path,
+    contour_plot,
     gear_text,
     gear_zone,
     headed,
     mesh_zone,
+    path_plot,
     ruled,
     value_rows,
     values,
@@ -56,8 +58,6 @@ def draw(command: str, design: GearPairDesign) -> Figure:
     """The figure of `gear` or `analyze` on a gear pair."""
     title = f"{design.spec.name}: {command}"
     if design.rack is not None:
-        from gearlink.cli.views.figures.gears import path_plot
-
         rack = design.rack
         teeth = [gear_text(rack.pair.teeth[0]), "rack"]
         head = ["", "", "unit", "gear 1", "rack"]
@@ -65,8 +65,6 @@ def draw(command: str, design: GearPairDesign) -> Figure:
         rows = value_rows(teeth, [f"{rack.pair.module:g}"] * 2, [rack.quantity]) + _rating(design)
         drawings = (partial(rack_and_gear, design=design), partial(rack_zone, rack=rack))
         return _sheet(title, drawings, (head, rows), drawing, [partial(path_plot, data=design.data)])
-    from gearlink.cli.views.figures.gears import contour_plot, path_plot
-
     mesh, data = Mesh(design.gear_pair), design.data
     plots = [partial(contour_plot, contour=design.contour), partial(path_plot, data=data)]
     head, rows = values([mesh])

@@ -18,7 +18,7 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
 from gearlink.cli.views.scenes.gears import gear as gear_body
-from gearlink.cli.views.scenes.gears import holes_for
+from gearlink.cli.views.scenes.gears import holes_for, rack_scene
 from gearlink.cli.views.scenes.scene import BLUE, ORANGE, TURN, Body, Mark, Points, Readout, Reals, Scene, track
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
@@ -43,8 +43,6 @@ _MOST_PITCHES = 36
 def build(design: GearPairDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; gear 1 drives counter-clockwise."""
     if design.rack is not None:
-        from gearlink.cli.views.scenes.gears import rack_scene
-
         return rack_scene(design.rack, design.rack_teeth, design.rack_back, fraction)
     return pair_scene(design.gear_pair, ("1", "2"), fraction)
 
@@ -616,8 +614,6 @@ def _sliding_axes(axes: Axes) -> None:
 
 def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]:
     """Pressure and root stresses on an axis of their own."""
-    import math
-
     other = axes.twinx()
     _named(other, "", "stress under the nominal load [N/mm²]")
     rho = [place.rho for place in places]

@@ -59,8 +59,6 @@ def _allowed_pressure(design: Any) -> float | None:
 
 def _too_much(axes: Axes, design: Any, x: Any, pressure: Any) -> None:
     """A pressure in red where it is above what is allowed."""
-    import numpy as np
-
     limit = _allowed_pressure(design)
     if limit is not None:
         values = np.asarray(pressure, dtype=float)
@@ -74,8 +72,6 @@ def _allowed(axes: Axes, design: Any) -> None:
 
 
 def _contact(axes: Axes, design: Any, title: str, ylabel: str) -> tuple[Any, dict[str, Any]]:
-    import numpy as np
-
     table = design.table("contact", samples=720)
     panels.turn_panel(axes, ylabel, "input angle [deg]")
     panels.heading(axes, title)
@@ -109,8 +105,6 @@ def residual(axes: Axes, design: Any) -> None:
 
 def profile(axes: Axes, design: Any, name: str) -> None:
     """A cam, its profile coloured by the pressure."""
-    import numpy as np
-
     phi = np.linspace(0.0, design.machine.period, 361)
     roller = design.roller_on_cam(name, phi)
     turned = np.radians(design.cam_degrees(phi))
@@ -123,7 +117,6 @@ def profile(axes: Axes, design: Any, name: str) -> None:
 
 def _colored(axes: Axes, points: Any, values: Any, title: str, limit: float | None) -> None:
     """A profile by its pressure, on a scale from 0 to what is allowed, where that is known; red above it."""
-    import numpy as np
     from matplotlib.collections import LineCollection
 
     panels.drawing(axes, title)
@@ -193,8 +186,6 @@ def stroke_pressures(axes: Axes, design: Any) -> None:
 
 def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
     """The cam of a stroke, its profile coloured by the pressure; open where the roller stands in its slot."""
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.strokes import dwell_arc
 
     parts = [np.linspace(low, high, 121) for low, high in stroke.parts]
@@ -210,8 +201,6 @@ def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
 
 def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_rest: Any = None) -> None:
     """A column of each stroke over the cam angle, and a function of the rests, in which the rollers press as well."""
-    import numpy as np
-
     table = design.table("contact_stroke", samples=400)
     style.curves(axes, f"{'cam' if design.spec.drive is None else 'crank'} angle [deg]", ylabel)
     panels.small_ticks(axes)
@@ -355,16 +344,12 @@ def _profile(axes: Axes, design: Any, name: str) -> None:
 
 
 def _columns(design: LoadsDesign, table: str) -> dict[str, Any]:
-    import numpy as np
-
     found = design.table(table)
     return {name: np.asarray(values) for name, values in zip(found.columns, found.data, strict=True)}
 
 
 def _forces_of(design: LoadsDesign, table: str = "joints") -> dict[str, Any]:
     """Columns of the joints, or of the frame, with 0 for what is rounding beside the largest joint force."""
-    import numpy as np
-
     columns = _columns(design, table)
     if design.locked:  # by friction: the joints have no forces
         return columns
@@ -375,8 +360,6 @@ def _forces_of(design: LoadsDesign, table: str = "joints") -> dict[str, Any]:
 
 
 def _closed(values: Any) -> Any:
-    import numpy as np
-
     return np.append(values, values[:1])
 
 
@@ -391,8 +374,6 @@ def _over_turn(axes: Axes, design: LoadsDesign, title: str, ylabel: str) -> None
 
 
 def _angles(columns: dict[str, Any], design: LoadsDesign) -> Any:
-    import numpy as np
-
     return np.append(columns["input_angle"], 360.0 * min(design.turns, 100))
 
 
@@ -454,8 +435,6 @@ def _joint_panels(design: LoadsDesign) -> list[Panel]:
 
 def _alike(design: LoadsDesign, columns: dict[str, Any], parts: Sequence[str]) -> list[list[str]]:
     """The joints of a table, those together whose forces have the same parts: "" for the magnitude, "_x", "_y"."""
-    import numpy as np
-
     found: list[list[str]] = []
     for name in (name for name in design.pins if name in columns):
         same = (
@@ -502,8 +481,6 @@ def _speed(axes: Axes, design: LoadsDesign) -> None:
 
 def _deflection(axes: Axes, design: LoadsDesign) -> None:
     """Output with and without its deflection, in the dwells; steady state."""
-    import numpy as np
-
     vibrating = design.vibrating
     unit = "mm" if vibrating.slides else "deg"
     _over_turn(axes, design, "Deflection of the output, steady state", f"deflection [{unit}]")
@@ -559,8 +536,6 @@ def _jumps(points: Any) -> Any:
         >>> _jumps(np.array([0, 1, 2, 30, 31, 32, 0]) + 0j).tolist()
         [2, 5]
     """
-    import numpy as np
-
     steps = np.abs(np.diff(points))
     usual = np.maximum(np.roll(steps, 1), np.roll(steps, -1))
     return np.flatnonzero((steps > _LEAST_JUMP * np.abs(points).max()) & (steps > _STEEPER * usual))
@@ -568,8 +543,6 @@ def _jumps(points: Any) -> Any:
 
 def _locus(axes: Axes, title: str, x: Any, y: Any, color: str) -> None:
     """A force as a curve about its joint; what is drawn dotted is a jump."""
-    import numpy as np
-
     style.curves(axes, "", "")
     panels.heading(axes, f"{title} [N]")
     axes.set_aspect("equal", adjustable="datalim")

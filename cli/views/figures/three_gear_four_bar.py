@@ -30,7 +30,7 @@ from gearlink.cli.views.scenes.scene import (
     fixed_circle,
 )
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
-from gearlink.core.machines.three_gear.mechanism import OUTPUT
+from gearlink.core.machines.three_gear.mechanism import OUTPUT, poles
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 
 if TYPE_CHECKING:
@@ -176,9 +176,6 @@ def _output(axes: Axes, design: ThreeGearFourBar) -> None:
 
 def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     """The output about its dwell, counted from its place at the start of it."""
-    import numpy as np
-
-    from gearlink.core.machines.three_gear.mechanism import OUTPUT
     from gearlink.core.machines.three_gear.motion import output_angle
 
     dwell = _dwell(design)
@@ -423,8 +420,6 @@ def draw_poles(design: ThreeGearFourBar) -> Figure:
 
 def _poles(axes: Axes, design: ThreeGearFourBar, phi: float) -> None:
     """The three poles, the line through them, and the feet of B and D on it."""
-    from gearlink.core.machines.three_gear.mechanism import poles
-
     found = poles(design, np.array([phi]))
     first, second, x = complex(found.first[0]), complex(found.second[0]), float(found.on_frame[0])
     points = {"F = P13": first, "E = P35": second}

@@ -51,8 +51,6 @@ def draw(study: ToleranceStudy) -> Figure:
 
 def _scatters(course: Course) -> bool:
     """Whether an output leaves its place at all: one that a law prescribes has no band."""
-    import numpy as np
-
     return bool(np.nanmax(np.abs(course.percentiles)) > _NOTHING * np.ptp(course.nominal))
 
 
@@ -83,8 +81,6 @@ def _course(axes: Axes, course: Course) -> None:
 
 def _closed(course: Course) -> tuple[Any, Any]:
     """Places and percentiles, those of a cycle up to its end, where it begins again."""
-    import numpy as np
-
     if course.period is None:
         return course.places, course.percentiles
     return np.append(course.places, course.period), np.hstack((course.percentiles, course.percentiles[:, :1]))
@@ -92,8 +88,6 @@ def _closed(course: Course) -> tuple[Any, Any]:
 
 def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     """Density of a quantity, its nominal value, its quantiles and its limits."""
-    import numpy as np
-
     values = study.result.values[name]
     values = values[~np.isnan(values)]
     unit = study.units[name]

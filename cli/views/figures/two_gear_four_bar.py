@@ -136,8 +136,6 @@ def _output(axes: Axes, design: TwoGearFourBar) -> None:
 
 def _magnified(axes: Axes, design: TwoGearFourBar) -> None:
     """The output about its dwell, counted from the middle of the tolerance, and the window asked for."""
-    from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
-
     found, band = design.tolerance_dwell, math.degrees(design.output_tolerance or 0.0)
     assert found is not None, "drawn only with it"
     start, width = math.degrees(found.start), math.degrees(found.crank_angle)

@@ -110,8 +110,6 @@ def _mirrored(z: Any, mirror: float) -> tuple[Any, Any]:
 
 
 def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc, is_external
 
     run_up, bottom, run_out = contour(cam, design.slot_of(cam))
@@ -137,8 +135,6 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
 
 def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
     """Arcs and free sector of a closed contour, in the frame of the cam's own stroke."""
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.strokes import is_external
 
     closed = design.cycle.back if cam is design.return_cam or mirror < 0.0 else design.cycle.main
@@ -148,7 +144,6 @@ def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
 
 def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:
     """The body outside an internal contour, as far as a circle."""
-    import numpy as np
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
@@ -165,14 +160,10 @@ def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:
 
 
 def _area(x: Any, y: Any) -> float:
-    import numpy as np
-
     return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
 def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
-    import numpy as np
-
     pitch = cam.points(np.linspace(0.0, 1.0, 601)).pitch
     axes.plot(
         *_mirrored(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=_DASHED, label="pitch curve", zorder=3
@@ -187,8 +178,6 @@ def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
 
 def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     """The rocker at start, mid-swing and end as the cam sees it."""
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.strokes import middle_of, rocker_pivots
 
     points = cam.points(np.array([0.0, middle_of(cam), 1.0]))
@@ -215,8 +204,6 @@ def stroke_axis(axes: Axes, design: WideSwingDesign, ylabel: str) -> None:
 
 def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Pressure angle of each cam over the stroke with the limit; the transition zone is shaded."""
-    import numpy as np
-
     stroke_axis(axes, design, "pressure angle [deg]")
     k = np.linspace(0.0, 1.0, 401)
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
@@ -243,8 +230,6 @@ def _zone(axes: Axes, design: WideSwingDesign) -> None:
 
 def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
-    import numpy as np
-
     from gearlink.cli.views.figures.drawing.panels import powers_of_ten
     from gearlink.core.machines.wide_swing.strokes import is_external
 
@@ -599,8 +584,6 @@ def _moving_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
 
 def _mechanism_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Rocker, device and slider to scale at mid-swing; lightly at both ends of the stroke."""
-    import numpy as np
-
     panels.drawing(axes, "Mechanism at mid-swing")
     section = design.spec.slider
     middle = 0.5 if section is None else design.motion.slider.middle_place
@@ -666,8 +649,6 @@ def legend_row(axes: Axes, drawing: Axes) -> None:
 
 def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Torque peaks on the rocker axis over the speed; where it is shaded the device does harm."""
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.design import torque_peaks
     from gearlink.core.numerics.extremes import minimum_over
 
@@ -756,8 +737,6 @@ def draw_cams(command: str, design: WideSwingDesign) -> Figure:
 
 def _slot_panel(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
     """The slot that the roller needs at mid-swing, enlarged."""
-    import numpy as np
-
     from gearlink.core.machines.wide_swing.strokes import middle_of
 
     start, end = design.slot_of(cam)
@@ -803,8 +782,6 @@ def contours_panel(made: Figure, place: Any, design: WideSwingDesign) -> None:
 
 
 def _whole(cam: ClosedCam, frame: Any) -> Any:
-    import numpy as np
-
     return frame(np.concatenate([points for _, points in cam.outline()]))
 
 
@@ -814,8 +791,6 @@ def _xy(points: Any) -> tuple[Any, Any]:
 
 def _contour(axes: Axes, cam: ClosedCam, frame: Any, color: str) -> None:
     """A contour in its sectors, each in its own colour, the joints marked, and the path of the roller's centre."""
-    import numpy as np
-
     named = "internal" if cam.cam.sense < 0 else "external"
     for i, (name, points) in enumerate(cam.outline()):
         shade, width = _PARTS.get(name, (color, 2.4))
@@ -830,7 +805,6 @@ def _contour(axes: Axes, cam: ClosedCam, frame: Any, color: str) -> None:
 
 def _between(axes: Axes, cycle: WholeCycle) -> None:
     """The body of both profiles: metal inside the external and outside the internal one, as far as a rim."""
-    import numpy as np
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
@@ -859,8 +833,6 @@ def _legend(axes: Axes, drawing: Axes, columns: int = 1) -> None:
 
 def cycle_panel(axes: Axes, design: WideSwingDesign) -> None:
     """The rocker's angle over a revolution of the cam, the strokes and rests shaded and named."""
-    import numpy as np
-
     cycle = design.cycle
     style.curves(axes, "cam angle from the start of the working stroke [deg]", "rocker from mid-swing [deg]")
     panels.small_ticks(axes)

@@ -9,7 +9,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.views.scenes.scene import TURN, Band, Chain, Chart, Curve, Mark, Points, Readout, Reals, letters, loop
+from gearlink.cli.views.scenes.scene import (
+    TURN,
+    Band,
+    Body,
+    Chain,
+    Chart,
+    Curve,
+    Mark,
+    Points,
+    Readout,
+    Reals,
+    letters,
+    loop,
+)
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import FILES, KINDS
 
@@ -102,10 +115,6 @@ def builder(kind: str) -> Callable[[Design, Reals], Scene]:
 
 def pictures_for(scene: Scene, fps: int) -> int:
     """How many pictures let the teeth be seen to turn the right way, from a scene of evenly spread probes."""
-    import numpy as np
-
-    from gearlink.cli.views.scenes.scene import TURN, Body
-
     bodies = [part for part in scene.parts if isinstance(part, Body) and part.repeats > 1]
     steps = [float(np.abs(np.diff(body.turn)).max()) * body.repeats / TURN * len(body.turn) for body in bodies]
     needed = max(steps, default=0.0) / _PITCH_A_PICTURE

@@ -23,7 +23,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, mixed, steady
-from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
+from gearlink.core.numerics.arrays import Points, Reals, turn_degrees, units
 from gearlink.core.numerics.extremes import Extreme, extremes_over, least_convex_radius
 from gearlink.core.parts.cams.checks import ROLLER_SHARE, against_curvature, is_steep
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
@@ -438,8 +438,6 @@ class CamGear(Grooved):
     def path(self, theta: Reals) -> Path:
         """P, P', P'' and u = d P/d X."""
 
-        from gearlink.core.numerics.arrays import units
-
         x, first, second = self.lever(theta, 2)
         turn, arm, length = units(theta), self.spec.lever.length * units(x), self.carrier_length
         spin = 1.0 + first
@@ -505,8 +503,6 @@ class CamLinkage(Grooved):
     @cached_property
     def _span(self) -> tuple[Extreme, Extreme]:
         """Maximum and minimum distance of B and D."""
-
-        from gearlink.core.numerics.arrays import units
 
         links, phase = self.spec.links, self.spec.phase * _DEGREE
 

@@ -403,8 +403,6 @@ class DiscCamDesign(OfFollower, Design):
 
     def check_constant_sum(self) -> Iterator[Check]:
         """GL405 of the two rollers of a slide: they stand on either side of the cam axis at their distance."""
-        import numpy as np
-
         cams = self.cams
         if cams.back is None or self.spec.oscillates:
             return

@@ -21,7 +21,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Place
 from gearlink.core.machines.disc_cam.design import DiscCamDesign
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.parts.cams.follower_motion import Stroke
 from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
@@ -647,8 +647,6 @@ class MeasuredCamDesign(DiscCamDesign):
 
     def require_runs(self) -> None:
         """Refuse a profile along which the cam angle turns back."""
-        import numpy as np
-
         self.cam.at_cam_angle(np.zeros(1))
 
     @property
@@ -696,8 +694,6 @@ class MeasuredCamDesign(DiscCamDesign):
         return self._cam_angle(self._steepest.place)
 
     def _cam_angle(self, t: float) -> float:
-        import numpy as np
-
         return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], _TURN))
 
     @property
@@ -718,8 +714,6 @@ class MeasuredCamDesign(DiscCamDesign):
     @cached_property
     def phases(self) -> list[MeasuredPhase]:
         """Dwells and strokes."""
-        import numpy as np
-
         value = self.cam.motion(np.linspace(0.0, _TURN, ROWS, endpoint=False))[0]
         tolerance = self.spec.dwell_tolerance
         return phases_of(value, math.radians(tolerance) if self._oscillates else tolerance)
@@ -728,10 +722,6 @@ class MeasuredCamDesign(DiscCamDesign):
 
     def table_law(self, samples: int | None = None) -> Table:
         """The follower over the cam angle, and what the series leaves of the points that touch it there."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         phi = np.asarray(np.radians(degrees), dtype=np.float64)
         value, speed, acceleration = self.cam.motion(phi)
@@ -765,8 +755,6 @@ class MeasuredCamDesign(DiscCamDesign):
 
     def table_profile_fit(self, _samples: int | None = None) -> Table:
         """The points, the series at their angles, and the difference."""
-        import numpy as np
-
         t, radius = self.points
         columns = {
             "profile_angle": (np.degrees(t), "deg"),

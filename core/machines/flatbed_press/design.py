@@ -800,8 +800,6 @@ class PressCams(DiscCams):
 
     def base_radius_for(self, pressure_angle: float) -> float:
         """Minimum base radius [mm] for a pressure angle [rad] that leaves roller and shaft their room as well."""
-        from gearlink.core.parts.cams.checks import HUB
-
         hub = HUB * self.section.shaft_radius * (1.0 + _HAIR) + self.section.roller_radius - self.follower.lift_range[0]
         return self.base_radius_for_roller(max(self.base_radius_for_pressure(pressure_angle), hub))
 
@@ -837,7 +835,6 @@ class PressCams(DiscCams):
             checked by its own cams.
         """
         from gearlink.core.numerics.roots import bracketed_root
-        from gearlink.core.parts.cams.checks import ROLLER_SHARE
 
         roller = self.section.roller_radius
         wanted = roller / ROLLER_SHARE * (1.0 + _HAIR)

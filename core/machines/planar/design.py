@@ -14,13 +14,13 @@ import numpy as np
 from gearlink.core.base.design import Design, NamesOfFile, Outline
 from gearlink.core.base.errors import GearlinkError, MissingSection
 from gearlink.core.base.nomenclature import term
-from gearlink.core.base.remedies.ways import Way
+from gearlink.core.base.remedies.ways import Way, down, either
 from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
-from gearlink.core.machines.planar.extremes import turning_points
-from gearlink.core.machines.planar.structure import GearJoint, RackJoint
+from gearlink.core.machines.planar.extremes import Wanted, extremes, turning_points
+from gearlink.core.machines.planar.structure import GearJoint, RackJoint, Structure
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
@@ -393,8 +393,6 @@ class PlanarMechanism(Design):
     @cached_property
     def structure(self) -> Structure:
         """Its bodies and joints."""
-        from gearlink.core.machines.planar.structure import Structure
-
         return Structure(self.spec)
 
     @cached_property
@@ -576,8 +574,6 @@ class PlanarMechanism(Design):
         return [self._found[key] for key in keys]
 
     def _search(self, keys: Iterable[tuple[str, int]]) -> None:
-        from gearlink.core.machines.planar.extremes import Wanted, extremes
-
         moving = self.moving_numbers
         orders: dict[str, list[int]] = {}
         for name, order in dict.fromkeys(keys):
@@ -725,8 +721,6 @@ class PlanarMechanism(Design):
 
     def ways_of(self, check: str) -> Iterable[Way]:
         """Lengths of the bars, where the transmission angle is poor; shafts where they are in the way."""
-        from gearlink.core.base.remedies.ways import down, either
-
         if check == "transmission-angle":
             bars = [f"links.{name}[2]" for name, link in self.spec.links.items() if isinstance(link, list)]
             return either(*bars) if bars else ()

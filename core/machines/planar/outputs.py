@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from gearlink.core.base.report import Table
-from gearlink.core.machines.planar.system import scaled
+from gearlink.core.machines.planar.system import Jets, scaled
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.design import PlanarMechanism
@@ -114,8 +114,6 @@ def _place_on(line: Line, size: float, names: Sequence[str]) -> Course:
 def jets_of(mechanism: Mechanism, names: Sequence[str], size: float) -> Jets:
     """Taylor coefficients of some links of a mechanism, lengths in units of size; of all its rows one after another."""
     import numpy as np
-
-    from gearlink.core.machines.planar.system import Jets
 
     links = [mechanism.link(name) for name in names]
     order = min(link.turn.order for link in links if link is not None)

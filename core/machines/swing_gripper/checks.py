@@ -24,7 +24,18 @@ from gearlink.core.machines.swing_gripper import codes
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.cams import codes as cam_codes
-from gearlink.core.parts.cams.checks import AS_THICK_AS_ROLLER, HUB, ROLLER_SHARE, over_axis_check
+from gearlink.core.parts.cams.checks import (
+    AS_THICK_AS_ROLLER,
+    HUB,
+    ROLLER_SHARE,
+    hub_checks,
+    impossible,
+    is_steep,
+    over_axis_check,
+    pressure_angle_checks,
+    step_check,
+    undercut_checks,
+)
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.studies.clearance import beside_line, beside_turning_arm, beside_turning_pin
@@ -273,8 +284,6 @@ def acceleration_step(design: SwingGripper) -> Iterator[Check]:
 
 
 def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
-    from gearlink.core.parts.cams.checks import step_check
-
     peak = design.motion.law.peak(order)
     unit = "rad/rad" if order == 1 else "rad/rad^2"
     return step_check(rule, _jumps(design, order), peak, unit, bad, "take laws without end acceleration in laws")
@@ -407,8 +416,6 @@ def _inside_check(design: SwingGripper, release: Release) -> Check:
 
 
 def _gap_check(design: SwingGripper, release: Release) -> Check:
-    import numpy as np
-
     from gearlink.core.machines.swing_gripper.handover_geometry import widest_window
 
     degrees = design.motion.handover + release.window * np.array([-1.0, 0.0, 1.0])
@@ -425,8 +432,6 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
 
 def pressure_angle(design: SwingGripper) -> Iterator[Check]:
     """GL401 for all cams over the turn, and a warning for the phase accelerate; it fails where no cam can be."""
-    from gearlink.core.parts.cams.checks import impossible, is_steep, pressure_angle_checks
-
     limit = design.spec.limits.pressure_angle
     if design.spec.fingers is not None:
         fix = "lengthen fingers.open.over and fingers.close.over, or fingers.lever"
@@ -443,7 +448,6 @@ def pressure_angle(design: SwingGripper) -> Iterator[Check]:
 
 
 def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
-    from gearlink.core.parts.cams.checks import is_steep
     from gearlink.core.parts.cams.disc_cam import largest_pressure_angles
 
     cams, end = design.cams.discs, math.radians(design.motion.law.starts[1])
@@ -458,8 +462,6 @@ def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
 
 def cam_undercut(design: SwingGripper) -> Iterator[Check]:
     """GL402 for both cams, and for that of the fingers."""
-    from gearlink.core.parts.cams.checks import undercut_checks
-
     if design.spec.cam is not None:
         yield from undercut_checks(design.cams.discs, plainly=codes.FARTHER)
     if design.spec.fingers is not None:
@@ -468,8 +470,6 @@ def cam_undercut(design: SwingGripper) -> Iterator[Check]:
 
 def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
     """GL302: the profiles against the cam shaft; cams, links, rollers, arm and drum against the axes of the frame."""
-    from gearlink.core.parts.cams.checks import hub_checks
-
     if design.warnings:
         yield from beside_axes(design)
     yield from hub_checks(

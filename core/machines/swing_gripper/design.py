@@ -19,7 +19,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper import checks
 from gearlink.core.machines.swing_gripper.codes import FARTHER
 from gearlink.core.machines.swing_gripper.motion import Motion, require
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, product, turn_degrees
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.parts.cams.codes import LARGER
 from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -53,8 +53,6 @@ _ROWS = 41
 
 def motion_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Angles, velocities and accelerations of both rockers over the turn."""
-    import numpy as np
-
     degrees, motion = design.motion.rows(samples, 3)
     speed, square = design.motion.shaft_speed, design.motion.shaft_speed**2
     columns = {
@@ -76,13 +74,6 @@ def motion_table(design: SwingGripper, samples: int | None = None) -> Table:
 
 def tip_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Path of the gripper's tip in the machine's frame, its speed and acceleration, and the jerk of the arm."""
-    import cmath
-    import math
-
-    import numpy as np
-
-    from gearlink.core.numerics.arrays import product, turn_degrees
-
     degrees, spec, speed = turn_degrees(samples), design.spec, design.motion.shaft_speed
     beta = design.motion.law.evaluate(degrees, 3)
     arm = np.exp(1j * spec.swing_sense * beta[0])
@@ -103,8 +94,6 @@ def tip_table(design: SwingGripper, samples: int | None = None) -> Table:
 
 def newton_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
-    import numpy as np
-
     from gearlink.core.machines.swing_gripper.linkage import closed_form_error
 
     degrees, loop = design.motion.loop_at(samples)
@@ -140,10 +129,7 @@ def finger_cam_table(design: SwingGripper, samples: int | None = None) -> Table:
 
 def forces_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Inertia and contact torques and normal forces over the turn."""
-    import numpy as np
-
     from gearlink.core.machines.swing_gripper.forces import contact_torques
-    from gearlink.core.numerics.arrays import turn_degrees
 
     degrees, spring = turn_degrees(samples), design.closure.closing_torque
     main, back = design.closure.inertia_torques(degrees)
@@ -161,8 +147,6 @@ def forces_table(design: SwingGripper, samples: int | None = None) -> Table:
 
 def handover_window_table(design: SwingGripper, _samples: int | None = None) -> Table:
     """Gap of the tip to the pitch circle, slip and speed difference round the handover."""
-    import numpy as np
-
     from gearlink.core.machines.swing_gripper.handover_geometry import speed_difference
 
     half = design.spec.release.window if design.spec.release is not None else _WINDOW
@@ -232,8 +216,6 @@ class GripperCams(DiscCams):
         return rollers
 
     def _rocking(self, roller: Roller, from_input: float, side: int) -> RockingRoller:
-        import numpy as np
-
         from gearlink.core.parts.cams.size import RockingRoller
 
         linkage, ahead = self.motion.linkage, math.radians(from_input)
@@ -252,10 +234,6 @@ class GripperCams(DiscCams):
     @property
     def main_arm(self) -> complex:
         """Direction of the main roller's arm at the pick-up position."""
-        import cmath
-
-        import numpy as np
-
         angle = float(self.motion.linkage.motion(np.array([0.0]), 0).input_angle[0])
         return cmath.rect(1.0, angle + math.radians(self.section.roller.angle))
 
@@ -278,9 +256,6 @@ class GripperCams(DiscCams):
         return (self.main_cam,) if self.return_cam is None else (self.main_cam, self.return_cam)
 
     def _disc_cam(self, name: str, roller: Roller, from_input: float) -> DiscCam:
-
-        from gearlink.core.parts.cams.disc_cam import DiscCam
-        from gearlink.core.parts.cams.profile import oscillating
 
         pivot, shift = -self.from_pivot, math.radians(from_input)
 
@@ -447,8 +422,6 @@ class Closure:
         return sense
 
     def _lift_sense(self, cam: DiscCam) -> int:
-        import numpy as np
-
         path = cam.path(np.array([0.0]), 1)
         tangent = path.first - 1j * cam.sense * path.position
         outward = 1j * cam.sense * tangent
@@ -466,8 +439,6 @@ class Closure:
     @cached_property
     def worst_unloading(self) -> tuple[Extreme, ...]:
         """Largest torque that lifts each roller [N m], and the cylinder angle [deg] of it."""
-        import numpy as np
-
         from gearlink.core.numerics.extremes import extremes_over
         from gearlink.core.numerics.together import kept_last
 
@@ -530,8 +501,6 @@ class Handover:
     @cached_property
     def state(self) -> tuple[float, float]:
         """Swing angle [rad] and its rate by the cylinder angle at the handover."""
-        import numpy as np
-
         beta, rate = self.motion.law.evaluate(np.array([self.motion.handover]), 1)
         return float(beta[0]), float(rate[0])
 
@@ -551,8 +520,6 @@ class Handover:
 
     def path(self, degrees: Any) -> tuple[Any, Any, TipPath]:
         """Lead of the arm on the line of centres [rad], tip speed [mm/s] and path of the tip at cylinder angles."""
-        import numpy as np
-
         from gearlink.core.machines.swing_gripper.handover_geometry import tip_path
 
         arm, radius = self.spec.arm.length, self.spec.cylinder.radius

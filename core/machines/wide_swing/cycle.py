@@ -383,8 +383,6 @@ class WholeCycle:
 
     def table(self, samples: int | None = None) -> Table:
         """Both contours over one turn of the cam; empty where the roller at mid-swing has cut the profile away."""
-        import numpy as np
-
         count = samples or 360
         rows = row_numbers(samples, count)
         t = 2.0 * math.pi * np.arange(rows.start, rows.stop) / count
@@ -423,8 +421,6 @@ class WholeCycle:
 
 
 def _columns(prefix: str, cam: ClosedCam, t: Reals, frame: Callable[[Points], Points]) -> dict[str, tuple[Reals, str]]:
-    import numpy as np
-
     start, end = cam.slot
     k = cam.swing_share(t)
     gone = (cam.sector_at(t) == 0) & (k > start) & (k < end)

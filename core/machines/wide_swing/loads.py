@@ -28,7 +28,7 @@ from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
-from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path
+from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path, strokes_of
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
 from gearlink.core.studies import codes
@@ -395,10 +395,6 @@ _RUN_PANELS = 16
 
 def rows_table(design: WideSwingLoads, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
     """Input angles of a table's rows [rad], and its first columns; k over the stroke where the file has no cycle."""
-    import numpy as np
-
-    from gearlink.core.studies.loads.design import LoadsDesign
-
     if design.whole:
         return LoadsDesign.rows(design, samples)
     k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
@@ -408,8 +404,6 @@ def rows_table(design: WideSwingLoads, samples: int | None) -> tuple[Reals, dict
 
 def contact_stroke_table(design: WideSwingLoads, samples: int | None = None) -> Table:
     """Force, pressure and speeds of the roller over each stroke; empty where it touches nothing."""
-    import numpy as np
-
     k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
     columns: dict[str, tuple[Any, str]] = {"k": (k, "1")}
     for stroke in design.strokes:
@@ -666,8 +660,6 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def strokes(self) -> tuple[SwingStroke, ...]:
         """The working stroke, and what brings the rocker back where the whole revolution is known."""
-        from gearlink.core.machines.wide_swing.strokes import strokes_of
-
         return tuple(SwingStroke(stroke, self) for stroke in strokes_of(self.design))
 
     @property
@@ -793,8 +785,6 @@ class WideSwingLoads(LoadsDesign):
 
     def _greatest(self, name: str, *, curved: bool = False) -> float:
         """Maximum value over the strokes of a method of theirs, where the roller touches."""
-        import numpy as np
-
         return max(
             stroke.greatest(lambda k, stroke=stroke: np.abs(getattr(stroke, name)(k)), curved=curved)  # type: ignore[misc]
             for stroke in self.strokes
@@ -872,8 +862,6 @@ class WideSwingLoads(LoadsDesign):
 
 def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:
     """The pull of the device on its pin of the rocker, towards its base pin; of a pendulum its weight."""
-    import numpy as np
-
     from gearlink.core.mechanism.dynamics import Force
 
     unloader, unloading = loads.spec.unloader, loads.design.unloading

@@ -18,7 +18,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import unlike
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
@@ -508,7 +508,6 @@ def end_position_gain(design: WideSwingDesign) -> float:
 
 def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
     """GL542: the speed of the blow, where the file has a limit."""
-    from gearlink.core.base.wording import short
     from gearlink.core.machines.wide_swing import codes
 
     limit = design.spec.limits.impact_speed

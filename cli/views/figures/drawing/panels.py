@@ -193,8 +193,6 @@ def drawing(axes: Axes, title: str) -> None:
 
 def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "", at: str = "°") -> None:
     """A marked extreme of a curve over its input, with its value; `at` is the unit of places."""
-    import numpy as np
-
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
     left, right = axes.get_xlim()
     words = f"{style.number(value, 5, 1e3 * float(np.ptp(axes.get_ylim())))}{unit} at {degrees:.5g}{at}"
@@ -251,15 +249,11 @@ def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
 
 
 def _turn_angles() -> Any:
-    import numpy as np
-
     return np.arange(721) * 0.5
 
 
 def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: str) -> None:
     """Pressure angle of each cam over the cam angle, its extreme and the limit [deg]."""
-    import numpy as np
-
     degrees = _turn_angles()
     turn_panel(axes, "pressure\nangle [deg]", xlabel)
     heading(axes, "Pressure angle")
@@ -280,8 +274,6 @@ def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: s
 
 def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
     """Curvature of each pitch curve over the cam angle, and the curvature of the roller, which undercuts."""
-    import numpy as np
-
     degrees = _turn_angles()
     turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel)
     heading(axes, "Curvature")
@@ -311,8 +303,6 @@ def _legend_of_cams(axes: Axes) -> None:
 
 def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: Any = "-") -> complex:
     """A cam at cam angle 0, to scale: profile, pitch curve dashed, roller; the roller's centre is returned."""
-    import numpy as np
-
     pitch, profile = cam.points(np.radians(_turn_angles()))
     pitch, profile = pitch + axis, profile + axis
     roller = complex(cam.path(np.array([0.0]), 1).position.flat[0]) + axis
@@ -332,8 +322,6 @@ def cut(axes: Axes, cam: DiscCam, profile: Any) -> None:
 
     profile : (721,) array - the profile from cam angle 0 to 360 deg as it is drawn [mm]
     """
-    import numpy as np
-
     lost = cam.curvature(np.radians(_turn_angles())) * cam.roller_radius >= 1.0
     if lost.any():
         where = np.where(lost | np.roll(lost, 1) | np.roll(lost, -1), profile, np.nan)
@@ -360,8 +348,6 @@ def cam_shaft(axes: Axes, axis: complex, radius: float) -> None:
 
 def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, shaft_radius: float = 0.0) -> None:
     """The cam axis with an arrow in the sense of rotation, clear of the shaft."""
-    import numpy as np
-
     least, most = (
         pick(getattr(cam, name) for cam in cams) for pick, name in ((min, "min_radius"), (max, "max_radius"))
     )

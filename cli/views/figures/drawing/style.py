@@ -136,7 +136,6 @@ def drawing(axes: Axes, title: str = "") -> None:
 
 def area(axes: Axes, points: Sequence[complex] | NDArray[Any], **look: Any) -> None:
     """A filled outline, given by its corners."""
-    import numpy as np
     from matplotlib.patches import Polygon
 
     corners = np.asarray(points, dtype=complex)

@@ -248,7 +248,6 @@ def press(design: Any) -> list[Course]:
 
 def _turning(course: Course) -> float:
     """Where a course that starts at its minimum has its maximum [deg]."""
-    from gearlink.core.numerics.extremes import extremes_over
 
     def place(x: Reals) -> Reals:
         return np.asarray(course.at(x)[0])
