@@ -10,7 +10,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.machines.swing_gripper.checks import room_beside_arm
+from gearlink.core.machines.swing_gripper.design import room_beside_arm
 
 
 def warned(made: Any) -> dict[str, float]:

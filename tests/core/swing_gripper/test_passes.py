@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.swing_gripper.checks import Passes, links
+from gearlink.core.machines.swing_gripper.design import Passes, links
 
 Data = dict[str, Any]
 Lines = dict[str, tuple[Any, Any, float]]
