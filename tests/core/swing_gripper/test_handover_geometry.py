@@ -18,7 +18,7 @@ from oracles.gripper import CASES, machine
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.swing_gripper.handover_geometry import (
+from gearlink.core.machines.swing_gripper.design import (
     misplacement,
     speed_difference,
     tip_path,

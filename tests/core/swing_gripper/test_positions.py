@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.machines.swing_gripper.handover_geometry import drum_center
+from gearlink.core.machines.swing_gripper.design import drum_center
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
 from gearlink.core.machines.swing_gripper.mechanism import links_of
