@@ -1,4 +1,4 @@
 """Sheets that a design has besides the picture of its command: timing, motion of every output, cams.
 
-Begin with `sheet_list`.
+Begin with `motion_sheet`.
 """
