@@ -55,20 +55,6 @@ def _places(design: PressLoads) -> _Places:
     return _Places(axes, pins["cylinder"] + shift, slide, racks["rack_upper"].real)
 
 
-def cylinder_place(design: PressLoads) -> Iterator[Check]:
-    """GL516: the cylinder beside the bed on which it rolls, and beside the axes."""
-    direction = design.section.cylinder_direction
-    if direction is None:
-        return
-    at, radius = _places(design), design.spec.cylinder.radius
-    yield _beside_bed(design, at, direction)
-    for name, axis in at.axes.items():
-        room = abs(at.cylinder - axis) - radius
-        if room < 0.0:
-            what, fix = f"overlap of the cylinder and the axis {name}", "turn loads.cylinder_direction"
-            yield PLACE.check("warn", what, room, 0.0, "mm", overlap=what, fix=fix)
-
-
 def _beside_bed(design: PressLoads, at: _Places, direction: float) -> Check:
     """The bed runs along +y, the cylinder turns counter-clockwise: at the printing line, which lies at the maximum x
     of the cylinder, both run the same way."""
@@ -99,19 +85,6 @@ def _clear(design: PressLoads, at: _Places, direction: float) -> str:
     least = math.degrees(math.acos(share))
     low, high = math.ceil(10.0 * least) / 10.0, math.floor(10.0 * (360.0 - least)) / 10.0
     return f"set loads.cylinder_direction from {low:g} to {high:g} deg"
-
-
-def gear_direction(design: PressLoads) -> Iterator[Check]:
-    """GL516: the direction from A to G against that of the axes' distances."""
-    given, gears, bed = design.section.gear_1_direction, design.spec.input_gears, design.spec.bed
-    if given is None or gears is None:
-        return
-    across, up = gears.horizontal_distance, bed.double_crank.frame - bed.offset
-    wanted = math.degrees(math.atan2(across, up))
-    off = min(abs(math.remainder(given - side * wanted, 360.0)) for side in (1.0, -1.0))
-    what, fix = "loads.gear_1_direction against the direction of the axes", f"set it to {short(wanted)} deg"
-    status: Status = "warn" if off > _NEAR else "pass"
-    yield PLACE.check(status, what, off, _NEAR, "deg", name=PLACE.checks[1], side="<=", fix=fix)
 
 
 _TURN = 2.0 * math.pi
@@ -189,7 +162,30 @@ class PressLoads(CamLoadsDesign):
         _ = self.design.gear_pair, self.design.cams.base_radius
         return self.design.moving
 
-    check_cylinder_place, check_gear_direction = cylinder_place, gear_direction
+    def check_cylinder_place(self) -> Iterator[Check]:
+        """GL516: the cylinder beside the bed on which it rolls, and beside the axes."""
+        direction = self.section.cylinder_direction
+        if direction is None:
+            return
+        at, radius = _places(self), self.spec.cylinder.radius
+        yield _beside_bed(self, at, direction)
+        for name, axis in at.axes.items():
+            room = abs(at.cylinder - axis) - radius
+            if room < 0.0:
+                what, fix = f"overlap of the cylinder and the axis {name}", "turn loads.cylinder_direction"
+                yield PLACE.check("warn", what, room, 0.0, "mm", overlap=what, fix=fix)
+
+    def check_gear_direction(self) -> Iterator[Check]:
+        """GL516: the direction from A to G against that of the axes' distances."""
+        given, gears, bed = self.section.gear_1_direction, self.spec.input_gears, self.spec.bed
+        if given is None or gears is None:
+            return
+        across, up = gears.horizontal_distance, bed.double_crank.frame - bed.offset
+        wanted = math.degrees(math.atan2(across, up))
+        off = min(abs(math.remainder(given - side * wanted, 360.0)) for side in (1.0, -1.0))
+        what, fix = "loads.gear_1_direction against the direction of the axes", f"set it to {short(wanted)} deg"
+        status: Status = "warn" if off > _NEAR else "pass"
+        yield PLACE.check(status, what, off, _NEAR, "deg", name=PLACE.checks[1], side="<=", fix=fix)
 
     @cached_property
     def places(self) -> tuple[dict[str, complex], dict[str, complex]]:

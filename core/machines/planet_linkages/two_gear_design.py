@@ -35,29 +35,6 @@ if TYPE_CHECKING:
     from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell
 
 
-def _motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
-    """Output angle, speed and acceleration, coupler speed and transmission angle over a revolution of the crank."""
-    from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
-    from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
-
-    shown = [
-        Shown("output_angle", OUTPUT),
-        Shown("speed_ratio", OUTPUT, 1, "output_speed"),
-        Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
-        Shown("coupler_ratio", turned("coupler"), 1, "coupler_speed"),
-        Shown("transmission_angle", between("coupler", "rocker")),
-    ]
-    return motion_table("motion", design, shown, samples)
-
-
-def _links_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
-    """Angle, speed, acceleration and jerk of every link over a revolution of the crank."""
-    from gearlink.core.mechanism.courses import all_rates, motion_table, turned
-
-    shown = all_rates({name: turned(name) for name in ("coupler", "rocker", "output")})
-    return motion_table("links", design, shown, samples)
-
-
 # As in the three-gear four-bar: links that no workshop can tell apart have one standstill, not two or none.
 _STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
@@ -384,7 +361,26 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
         """The bodies in the plane of the gears."""
         return two_gear_layout(self)
 
-    table_motion, table_links = _motion_table, _links_table
+    def table_motion(self, samples: int | None = None) -> Table:
+        """Output angle, speed and acceleration, coupler speed and transmission angle over a revolution of the crank."""
+        from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+
+        shown = [
+            Shown("output_angle", OUTPUT),
+            Shown("speed_ratio", OUTPUT, 1, "output_speed"),
+            Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+            Shown("coupler_ratio", turned("coupler"), 1, "coupler_speed"),
+            Shown("transmission_angle", between("coupler", "rocker")),
+        ]
+        return motion_table("motion", self, shown, samples)
+
+    def table_links(self, samples: int | None = None) -> Table:
+        """Angle, speed, acceleration and jerk of every link over a revolution of the crank."""
+        from gearlink.core.mechanism.courses import all_rates, motion_table, turned
+
+        shown = all_rates({name: turned(name) for name in ("coupler", "rocker", "output")})
+        return motion_table("links", self, shown, samples)
 
     # Checks
 

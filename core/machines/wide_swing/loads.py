@@ -240,39 +240,6 @@ _TURN_BY = 15
 """Steps in which a direction is turned [deg]."""
 
 
-def contact_pressure_of_loads(design: WideSwingLoads) -> Iterator[Check]:
-    """GL607, where the file gives an allowed pressure."""
-    allowed = None if design.section.material is None else design.section.material.allowed_pressure
-    found, roller = design.hertz_pressure_max, design.section.roller
-    if allowed is None:
-        return
-    if roller is None:
-        yield no_width(allowed)
-        return
-    if found is None:
-        yield pressed_where_undercut("the roller presses where its cam", allowed)
-        return
-    rest = design.pressing.hardest_rest
-    at = "" if rest is None else f"the {rest.words}"
-    yield pressure_check("contact pressure of the roller", found, allowed, at)
-
-
-def contact_loss_of_loads(design: WideSwingLoads) -> Iterator[Check]:
-    """GL608: the device holds the roller on its cam up to the speed of lift-off, and against all that acts besides."""
-    speed, limit = design.spec.speed, design.lift_off_speed
-    status: Status = "fail" if limit < speed * (1.0 - 1e-9) else "pass"
-    fix = "raise unloader.reserve"
-    yield codes.CONTACT_LOSS.check(status, "lift-off speed of the roller", limit, speed, "1/min", fix=fix)
-    if not design.own_forces and design.spec.slider is None:
-        return
-    least = design.least_contact_force
-    if design.spec.slider is not None and changes_apart(design):
-        fix = side_words(design.spec.slider)
-    status = "fail" if least < 0.0 else "pass"
-    what, overlap = "minimum contact force of the roller", "contact force lacking: the roller leaves its cam"
-    yield codes.CONTACT_LOSS.check(status, what, least, 0.0, "N", overlap=overlap, fix=fix)
-
-
 def resonance_of_loads(design: WideSwingLoads) -> Iterator[Check]:
     """GL611, of a whole revolution."""
     return resonance(design) if design.whole else iter(())
@@ -391,42 +358,6 @@ class SwingRest:
 _STEPS = 100
 _RUN_PANELS = 16
 """Panels of a part of a stroke, over which forces and speeds of a roller are integrated."""
-
-
-def rows_table(design: WideSwingLoads, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
-    """Input angles of a table's rows [rad], and its first columns; k over the stroke where the file has no cycle."""
-    if design.whole:
-        return LoadsDesign.rows(design, samples)
-    k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
-    phi = k * design.cam.cycle_angle
-    return phi, {"k": (k, "1"), "input_angle": (np.degrees(phi), "deg")}
-
-
-def contact_stroke_table(design: WideSwingLoads, samples: int | None = None) -> Table:
-    """Force, pressure and speeds of the roller over each stroke; empty where it touches nothing."""
-    k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
-    columns: dict[str, tuple[Any, str]] = {"k": (k, "1")}
-    for stroke in design.strokes:
-        later = "" if stroke.name == "main" else "return_"
-        found = stroke.columns(k)
-        columns[f"{later}cam_angle"] = (np.degrees(stroke.angle(k)), "deg")
-        columns |= {f"{stroke.name}_{name}": found[name] for name in ("force", "pressure", "radius")}
-        columns |= {f"{later}{name}": found[name] for name in ("roller_speed", "entrainment")}
-        torque = np.full_like(k, np.nan) if design.locked else design.machine.torque(stroke.angle(k))
-        columns[f"{later}input_torque"] = (torque, "N m")
-    return Table.of("contact_stroke", columns)
-
-
-def harmonics_table(design: WideSwingLoads, samples: int | None = None) -> Table:
-    """Harmonics of the rocker's motion over a whole revolution."""
-    if not design.whole:
-        if design.spec.slider is not None:
-            raise NoSolution(
-                "harmonics are those of a whole revolution, and here the stroke alone is known", key="loads"
-            )
-        message = "harmonics are those of a whole revolution"
-        raise MissingSection(message, key="cycle_angle", fix="give cycle instead of cycle_angle")
-    return tables.harmonics(design, samples)
 
 
 class SwingVibrating(Vibrating):
@@ -854,9 +785,70 @@ class WideSwingLoads(LoadsDesign):
         """Of a slider whose arm stands ill that comes first."""
         return (*candidates_of_loads(self, check), *super().candidates(check))
 
-    rows = rows_table
-    table_contact_stroke, table_harmonics = contact_stroke_table, harmonics_table
-    check_contact_pressure, check_contact_loss = contact_pressure_of_loads, contact_loss_of_loads
+    def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
+        """Input angles of a table's rows [rad] and its first columns; k over the stroke where the file has no cycle."""
+        if self.whole:
+            return super().rows(samples)
+        k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
+        phi = k * self.cam.cycle_angle
+        return phi, {"k": (k, "1"), "input_angle": (np.degrees(phi), "deg")}
+
+    def table_contact_stroke(self, samples: int | None = None) -> Table:
+        """Force, pressure and speeds of the roller over each stroke; empty where it touches nothing."""
+        k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
+        columns: dict[str, tuple[Any, str]] = {"k": (k, "1")}
+        for stroke in self.strokes:
+            later = "" if stroke.name == "main" else "return_"
+            found = stroke.columns(k)
+            columns[f"{later}cam_angle"] = (np.degrees(stroke.angle(k)), "deg")
+            columns |= {f"{stroke.name}_{name}": found[name] for name in ("force", "pressure", "radius")}
+            columns |= {f"{later}{name}": found[name] for name in ("roller_speed", "entrainment")}
+            torque = np.full_like(k, np.nan) if self.locked else self.machine.torque(stroke.angle(k))
+            columns[f"{later}input_torque"] = (torque, "N m")
+        return Table.of("contact_stroke", columns)
+
+    def table_harmonics(self, samples: int | None = None) -> Table:
+        """Harmonics of the rocker's motion over a whole revolution."""
+        if not self.whole:
+            if self.spec.slider is not None:
+                raise NoSolution(
+                    "harmonics are those of a whole revolution, and here the stroke alone is known", key="loads"
+                )
+            message = "harmonics are those of a whole revolution"
+            raise MissingSection(message, key="cycle_angle", fix="give cycle instead of cycle_angle")
+        return tables.harmonics(self, samples)
+
+    def check_contact_pressure(self) -> Iterator[Check]:
+        """GL607, where the file gives an allowed pressure."""
+        allowed = None if self.section.material is None else self.section.material.allowed_pressure
+        found, roller = self.hertz_pressure_max, self.section.roller
+        if allowed is None:
+            return
+        if roller is None:
+            yield no_width(allowed)
+            return
+        if found is None:
+            yield pressed_where_undercut("the roller presses where its cam", allowed)
+            return
+        rest = self.pressing.hardest_rest
+        at = "" if rest is None else f"the {rest.words}"
+        yield pressure_check("contact pressure of the roller", found, allowed, at)
+
+    def check_contact_loss(self) -> Iterator[Check]:
+        """GL608: the device holds the roller on its cam up to the lift-off speed, and against all that acts besides."""
+        speed, limit = self.spec.speed, self.lift_off_speed
+        status: Status = "fail" if limit < speed * (1.0 - 1e-9) else "pass"
+        fix = "raise unloader.reserve"
+        yield codes.CONTACT_LOSS.check(status, "lift-off speed of the roller", limit, speed, "1/min", fix=fix)
+        if not self.own_forces and self.spec.slider is None:
+            return
+        least = self.least_contact_force
+        if self.spec.slider is not None and changes_apart(self):
+            fix = side_words(self.spec.slider)
+        status = "fail" if least < 0.0 else "pass"
+        what, overlap = "minimum contact force of the roller", "contact force lacking: the roller leaves its cam"
+        yield codes.CONTACT_LOSS.check(status, what, least, 0.0, "N", overlap=overlap, fix=fix)
+
     check_resonance, check_body_clearance = resonance_of_loads, bodies.placed_clearance
 
 
