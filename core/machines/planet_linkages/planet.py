@@ -17,8 +17,10 @@ from functools import cached_property
 from typing import Literal
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
+from gearlink.core.parts.linkages.standstills import Turning
 
 Carrier = Literal["crank", "rocker"]
 
@@ -112,6 +114,11 @@ class PlanetLinkage:
         coupler, rocker = rates_of(self.linkage.reading, crank_angle, order)
         carrier = float(order == 1) if self.carrier == "crank" else rocker
         return (1.0 - self.ratio) * carrier + self.ratio * coupler
+
+    def coupler_turnings(self) -> list[Turning]:
+        """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
+        links = self.linkage.reading
+        return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])
 
     def mean_ratio(self) -> float:
         """Net output revolutions per crank revolution.

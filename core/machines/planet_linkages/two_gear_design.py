@@ -23,7 +23,6 @@ from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.parts.linkages.codes import DWELL_CONDITION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
-from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep, OutputRates, Turning
@@ -250,8 +249,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     @cached_property
     def coupler_turnings(self) -> list[Turning]:
         """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
-        links = self.linkage.reading
-        return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])
+        return self.drive.coupler_turnings()
 
     @cached_property
     def speed_turnings(self) -> list[Turning]:

@@ -30,7 +30,6 @@ from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, Valley, least_band, longest_in_band
-from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep, Turning
 
@@ -174,13 +173,13 @@ def never(family: Family) -> str:
     limits = f"frames of {within(low, high, 'mm')}"
     teeth = abs(1.0 / family.ratio)
     if not family.ring:
-        reach = max(t.value for t in coupler_turnings(family.drive(high - margin))) - 1.0
+        reach = max(t.value for t in family.drive(high - margin).coupler_turnings()) - 1.0
         return (
             f"the output never stops: z5/z2 {unlike(teeth, reach)} (limit < {safely_below(reach)} for {limits})\n"
             "take fewer teeth on the sun or more on the planet"
         )
     reach, least = (
-        1.0 - min(t.value for t in coupler_turnings(family.drive(d))) for d in (low + margin, high - margin)
+        1.0 - min(t.value for t in family.drive(d).coupler_turnings()) for d in (low + margin, high - margin)
     )
     if teeth < least:
         return (
@@ -191,12 +190,6 @@ def never(family: Family) -> str:
         f"the output never stops: z5/z2 {unlike(teeth, reach)} (limit < {safely_below(reach)} for {limits})\n"
         "take fewer teeth on the ring gear or more on the planet"
     )
-
-
-def coupler_turnings(drive: PlanetLinkage) -> list[Turning]:
-    """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
-    links = drive.linkage.reading
-    return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])
 
 
 _BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens
