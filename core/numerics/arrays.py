@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gearlink.core.base.rows import row_numbers
 
@@ -18,6 +18,19 @@ Reals: TypeAlias = NDArray[np.float64]
 Points: TypeAlias = NDArray[np.complex128]
 """Points or vectors of the plane, x + i y."""
 Mask: TypeAlias = NDArray[np.bool_]
+
+
+def distinct(values: ArrayLike) -> NDArray[Any]:
+    """Each value once, ascending.
+
+    Example
+        >>> distinct([2.0, 1.0, 2.0]).tolist()
+        [1.0, 2.0]
+    """
+    found: NDArray[Any] = np.sort(np.asarray(values), axis=None)  # np.unique imports numpy.ma
+    first = np.ones(found.size, dtype=bool)
+    np.not_equal(found[1:], found[:-1], out=first[1:])
+    return found[first]
 
 
 def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
 
 # On [-1, 1], positive half; the rule is symmetric.
 GAUSS_NODES = (
@@ -19,6 +24,21 @@ GAUSS_WEIGHTS = (
     0.1494513491505806,
     0.06667134430868814,
 )
+
+
+@lru_cache
+def gauss_legendre(order: int) -> tuple[Reals, Reals]:
+    """Nodes on [-1, 1] and weights of a rule of any order, kept; nobody writes to them.
+
+    Example
+        >>> [each.round(6).tolist() for each in gauss_legendre(2)]
+        [[-0.57735, 0.57735], [1.0, 1.0]]
+    """
+    import numpy as np
+
+    x, weights = np.polynomial.legendre.leggauss(order)
+    x.flags.writeable = weights.flags.writeable = False
+    return x, weights
 
 
 def integral(f: Callable[[float], float], low: float, high: float) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.numerics.together import Search, together
 
 _STEPS = 200
@@ -149,7 +149,7 @@ def _zeros(period: float, turns: int, jumps: Sequence[float], *, any_zero: bool)
     grid, beside = np.linspace(0.0, period, 720 * turns + 1), _BESIDE * float(np.spacing(period))
     if jumps:
         sides = np.add.outer(np.asarray(jumps), [-beside, beside]).ravel()
-        grid = np.unique(np.concatenate((grid, sides[(sides > 0.0) & (sides < period)])))
+        grid = distinct(np.concatenate((grid, sides[(sides > 0.0) & (sides < period)])))
     values = yield grid
     rows = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
     if rows.size == 0:

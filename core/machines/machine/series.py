@@ -18,7 +18,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution, in_section, named
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.motion import TURN, Course, Motion
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.numerics.roots_sweep import zeros_of
 
@@ -225,7 +225,7 @@ class OnShaft:
         ways = self._ways(inner, side)
         found = [np.empty_like(angle) for _ in range(min(order, self.motion.highest) + 1)]
         with in_section(f"members.{self.name}.design"):
-            for way in np.unique(ways).tolist():
+            for way in distinct(ways).tolist():
                 rows = ways == way
                 outer = self._own(inner[0][rows], order, int(way), course)
                 for into, values in zip(found, chained(outer, [each[rows] for each in inner]), strict=True):

@@ -28,7 +28,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.six_bar.spec import LINKS, PINS
 from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
-from gearlink.core.numerics.arrays import Reals, product, turn_degrees, turned
+from gearlink.core.numerics.arrays import Reals, distinct, product, turn_degrees, turned
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import sign_changes
 from gearlink.core.numerics.roots_sweep import bracketed_roots
@@ -1039,7 +1039,7 @@ class Course:
         places = self.walk.rows[:, 0]
         inside = places[(places >= self.start) & (places <= self.end)]
         ends = np.array([self.start, self.end])
-        return np.unique(np.concatenate([ends, np.linspace(self.start, self.end, self.samples + 1), inside]))
+        return distinct(np.concatenate([ends, np.linspace(self.start, self.end, self.samples + 1), inside]))
 
     @property
     def samples(self) -> int:

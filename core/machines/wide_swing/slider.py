@@ -25,6 +25,7 @@ from gearlink.core.machines.wide_swing.law import ElasticLaw, Kept, MiddleView, 
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.slider_crank import slider as slider_place
@@ -407,7 +408,6 @@ class SliderLaw:
 # External cam of a wide-swing rocker that drives a slider: a law without symmetry, as two half strokes
 
 
-_GAUSS = np.polynomial.legendre.leggauss(12)
 _NEAR = 0.05
 _STEP = 1e-4  # of the stroke, for the jerk at k*, which only starts a search
 
@@ -484,7 +484,7 @@ class HalfLaw:
         near = np.abs(self.place - real) <= _NEAR
         if near.any():
             at = real[near]
-            nodes, weights = _GAUSS
+            nodes, weights = gauss_legendre(12)
             half = 0.5 * (self.place - at)
             places = (0.5 * (self.place + at))[:, None] + half[:, None] * nodes
             acceleration = self.law.invariants(np.clip(places, 0.0, 1.0).ravel(), 2)[2].reshape(places.shape)

@@ -312,7 +312,10 @@ class TorsionResponse:
         waves = math.pi * np.arange(len(self.series.coefficients))
         forced = self.series.coefficients * self.stiffness**2 / (self.stiffness**2 - waves**2 + 2j * decay * waves)
         # the waves are powers of the first: a product each, and no sine
-        result: Reals = np.polynomial.polynomial.polyval(np.exp(1j * math.pi * k), forced).real
+        first, total = np.exp(1j * math.pi * k), np.zeros(k.shape, dtype=np.complex128)
+        for amplitude in forced[::-1].tolist():
+            total = amplitude + total * first
+        result: Reals = total.real
         cosine = float(forced.real.sum())
         sine = float((1j * waves * forced).real.sum()) + decay * cosine
         result -= np.exp(-decay * k) * (cosine * np.cos(free * k) + sine / free * np.sin(free * k))

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, in_section
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.parts.cams.laws import Law, law
 
 if TYPE_CHECKING:
@@ -146,7 +146,7 @@ class FollowerMotion:
             turned = np.where(index < 0, TURN, turned)
             index = np.where(index < 0, len(self.pieces) - 1, index)
         found = [np.empty_like(turned) for _ in range(order + 1)]
-        for k in np.unique(index).tolist():
+        for k in distinct(index).tolist():
             piece, inside = self.pieces[k], index == k
             x = np.clip((turned[inside] - piece.start) / piece.width, 0.0, 1.0)
             for into, values in zip(found, piece.evaluate(x, order), strict=False):

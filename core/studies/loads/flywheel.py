@@ -14,6 +14,7 @@ import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
+from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.studies.loads.machine import Machine
 from gearlink.core.studies.loads.panels import NODES, PANEL, Panels, fewest_samples
 
@@ -80,7 +81,7 @@ class Energy:
 
     @cached_property
     def _gauss(self) -> tuple[Reals, Reals]:
-        x, weights = np.polynomial.legendre.leggauss(NODES)
+        x, weights = gauss_legendre(NODES)
         return 0.5 * (x + 1.0), 0.5 * weights
 
     def surplus(self, phi: Reals) -> Reals:

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlink.core.mechanism.rates import TURNING_BACK
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
+from gearlink.core.numerics.gauss import gauss_legendre
 
 NODES = 16
 PANEL = math.radians(10.0)
@@ -70,7 +71,7 @@ class Panels:
             for low, high in itertools.pairwise(bounds)
         ]
         edges = np.append(np.concatenate(parts), period)
-        x, weights = np.polynomial.legendre.leggauss(_FEW_NODES if many else NODES)
+        x, weights = gauss_legendre(_FEW_NODES if many else NODES)
         nodes = (edges[:-1, None] + np.diff(edges)[:, None] * (0.5 * (x + 1.0))).ravel()
         return cls(edges, nodes, 0.5 * weights)
 
@@ -91,9 +92,9 @@ class Panels:
         at = np.sort(np.asarray(places, dtype=float))
         row, apart = self.row(at), max(2.0 * TURNING_BACK, APART * float(np.spacing(self.edges[-1])))
         inside = (at - self.edges[row] > apart) & (self.edges[row + 1] - at > apart)
-        at, rows = at[inside], np.unique(row[inside])
+        at, rows = at[inside], distinct(row[inside])
         starts, ends = (np.sort(np.append(at, self.edges[rows + end])) for end in (0, 1))
-        x, _ = np.polynomial.legendre.leggauss(self.order)
+        x, _ = gauss_legendre(self.order)
         nodes = (starts[:, None] + (ends - starts)[:, None] * (0.5 * (x + 1.0))).ravel()
         return rows, Parts(nodes, ends - starts, self.weights)
 
@@ -132,6 +133,6 @@ def fewest_samples(breaks: Sequence[float]) -> int:
 @lru_cache
 def to_integral(order: int) -> Reals:
     """From values at the Gauss nodes of a panel of length 1 to the Legendre series of their integral from its start."""
-    x, _ = np.polynomial.legendre.leggauss(order)
+    x, _ = gauss_legendre(order)
     to_series = np.linalg.inv(np.polynomial.legendre.legvander(x, order - 1))
     return np.asarray(0.5 * np.polynomial.legendre.legint(to_series, lbnd=-1.0).T)

@@ -21,6 +21,7 @@ from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.studies.loads.flywheel import Function
 from gearlink.core.studies.loads.panels import Panels, fewest_samples, to_integral
 
@@ -194,7 +195,7 @@ _ROUNDING = 1e-12
 @lru_cache
 def _collocation(order: int) -> tuple[Reals, Reals]:
     """Matrix of integrals from 0 to each Gauss node of [0, 1], and weights of the whole."""
-    x, weights = np.polynomial.legendre.leggauss(order)
+    x, weights = gauss_legendre(order)
     return np.polynomial.legendre.legvander(x, order) @ to_integral(order).T, 0.5 * weights
 
 

@@ -17,7 +17,7 @@ from gearlink.core.mechanism.friction import Coefficients
 from gearlink.core.mechanism.joints import NEWTON_METER, Connection, Pin, Toothed
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.mechanism.rates import Point, dot, fixed, sense_of
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
 
 if TYPE_CHECKING:
     from gearlink.core.studies.loads.spec import Body, CommonLoads, Course, Friction, Load, Spring, Zone
@@ -67,7 +67,7 @@ def _from_zones(zones: Sequence[Zone], phi: Reals) -> Reals:
         for zone in zones
         if 0.0 < _width(zone.start, zone.end) < _TURN
     ]
-    edges = np.unique([0.0, *(end for start, stop, _ in ends for end in (start, stop))])
+    edges = distinct([0.0, *(end for start, stop, _ in ends for end in (start, stop))])
     levels = np.full_like(edges, whole)
     for start, stop, value in ends:
         first, last = np.searchsorted(edges, (start, stop))

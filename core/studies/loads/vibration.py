@@ -18,8 +18,9 @@ import numpy as np
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.mechanism.rates import dot
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, distinct
 from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.gauss import gauss_legendre
 
 if TYPE_CHECKING:
     from gearlink.core.studies.loads.design import LoadsDesign
@@ -101,7 +102,7 @@ class Panelled:
         bounds = [start, *sorted(place for place in breaks if start < place < end), end]
         parts = [np.linspace(a, b, math.ceil((b - a) / step) + 1)[:-1] for a, b in pairwise(bounds)]
         edges = np.append(np.concatenate(parts), end)
-        x, w = np.polynomial.legendre.leggauss(_NODES)
+        x, w = gauss_legendre(_NODES)
         width = np.diff(edges)[:, None]
         nodes = edges[:-1, None] + width * (0.5 * (x + 1.0))
         return cls(edges, nodes, 0.5 * width * w, bend(nodes.ravel()).reshape(nodes.shape))
@@ -143,7 +144,7 @@ class Panelled:
         rates, ends = (oscillator.exponent / speeds)[:, None], self.edges[1:]
         found: Points = np.zeros(len(speeds), dtype=np.complex128)
         widths = np.round(np.diff(self.edges), _DIGITS)
-        for width in np.unique(widths):
+        for width in distinct(widths):
             alike = widths == width
             inner = np.exp(rates * (ends[alike][0] - self.nodes[alike][0])) @ (self.weights * self.values)[alike].T
             found += np.sum(np.exp(rates * (self.edges[-1] - ends[alike])) * inner, axis=1)
@@ -231,7 +232,7 @@ class PeriodicResponse:
         panels, rate = self._panels, self._rate
         row = np.searchsorted(panels.edges[1:-1], phi, side="right")
         start = panels.edges[row]
-        x, w = np.polynomial.legendre.leggauss(_NODES)
+        x, w = gauss_legendre(_NODES)
         width = (phi - start)[:, None]
         nodes = start[:, None] + width * (0.5 * (x + 1.0))
         values = self.bend(nodes.ravel()).reshape(nodes.shape)

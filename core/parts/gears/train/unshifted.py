@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.design_axis import Findings
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.parts.gears.checks import Limits, contact_measure, gear_check, most_sliding
 from gearlink.core.parts.gears.codes import (
     CONTACT_RATIO,
@@ -90,7 +90,7 @@ class UnshiftedMeshes:
         numbers = np.asarray(teeth, dtype=np.int64)
         places = self._place[numbers]
         if places.size and places.min() < 0:
-            for z in np.unique(numbers[places < 0]).tolist():
+            for z in distinct(numbers[places < 0]).tolist():
                 self._place[z] = len(self._rows)
                 self._rows.append(self._row(z))
             flat = [(*row.quantities, row.action, *(x for check in row.checks for x in check)) for row in self._rows]
