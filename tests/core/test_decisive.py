@@ -81,7 +81,7 @@ def _checked(made: Design, command: str) -> str:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "count"), [("wide-swing-cam", 24), ("machine", 16)])
+@pytest.mark.parametrize(("kind", "count"), [("slider-crank", 60), ("wide-swing-cam", 24), ("machine", 16)])
 def test_what_require_leaves_out_refuses_nothing(kind: str, count: int) -> None:
     draw, files, refused = random.Random(11), _files(kind), 0
     for _ in range(count):
