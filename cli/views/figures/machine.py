@@ -146,7 +146,6 @@ def _chart(design: Machine, degrees: Reals) -> Chart:
     return Chart("machine angle [deg]", "share of the range [1]", whole, degrees, tuple(curves))
 
 
-_A3 = (16.54, 11.69)
 _BAR = 0.16
 """Height of the bar with the runs below a curve, the row being 1."""
 _STATUS = {"pass": style.GREEN, "warn": style.ORANGE, "fail": style.WRONG}
@@ -166,14 +165,14 @@ def draw(command: str, design: Any) -> Figure:
 
 def line_sheet(design: Any) -> Figure:
     """The timing as a line, A3."""
-    made = style.figure(*_A3, f"{design.spec.name}: timing")
+    made = panels.page(f"{design.spec.name}: timing", large=True, lying=True)
     _line(made.add_subplot(), design)
     return made
 
 
 def circle_sheet(design: Any) -> Figure:
     """The timing as a circle, A3."""
-    made = style.figure(*_A3, f"{design.spec.name}: timing\n")
+    made = panels.page(f"{design.spec.name}: timing\n", large=True, lying=True)
     axes: Any = made.add_subplot(projection="polar")
     _circle(axes, design)
     return made
@@ -332,7 +331,8 @@ def _circle(axes: Any, design: Any) -> None:
             axes.bar(start * turn, 0.92, (end - start) * turn, radius, align="edge", **look)
             middle = 0.5 * (start + end) * turn
             if (end - start) * turn * (radius + 0.5) > 0.55:
-                axes.text(middle, radius + 0.14, f"{word} {start % dial:.4g}–{end % dial:.4g}°", fontsize=7,
+                last = end % dial or dial  # a run that ends with the turn ends at 360
+                axes.text(middle, radius + 0.14, f"{word} {start % dial:.4g}–{last:.4g}°", fontsize=7,
                           ha="center", va="center", rotation=_along(middle), rotation_mode="anchor")  # fmt: skip
         values, _ = _positions(design, name)
         span = float(np.ptp(values))

@@ -14,9 +14,10 @@ import numpy as np
 import pytest
 import yaml
 from factory import design, each_kind
+from sheets import words
 
 from gearlink.cli.views.figures import loads as loads_sheets
-from gearlink.cli.views.figures import tolerance
+from gearlink.cli.views.figures import machine, tolerance
 from gearlink.cli.views.figures.drawing import labels
 from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, vector_sheet
@@ -336,6 +337,22 @@ def test_the_zone_shows_what_the_cams_make_up_for() -> None:
     assert slope == pytest.approx(speed[1:-1], abs=1e-2)
     for with_cams, alone in zip(motion_sheet.zone_errors(made, x), (way, speed), strict=True):
         assert np.abs(with_cams).max() < 1e-9 * np.abs(alone).max()
+    named = [text.get_text() for axes in motion_sheet.zone(made).axes for text in axes.get_legend().get_texts()]
+    assert "with cams: at most 0 mm" in named, "rounding is no error"
+
+
+@pytest.mark.slow
+def test_the_timing_of_a_machine_keeps_the_margins_of_its_page() -> None:
+    """Names of members stood at the edge of the paper, the title on the first row; a whole turn was 0 to 0."""
+    made = design("sheet_press")
+    figure = settled(machine.line_sheet(made))
+    renderer = figure.canvas.get_renderer()
+    edge = 7.5 / 25.4 * figure.dpi
+    for text in (label for axes in figure.axes for label in axes.get_yticklabels()):
+        assert text.get_window_extent(renderer).x0 > edge
+    top = max(axes.get_tightbbox(renderer).y1 for axes in figure.axes)
+    assert figure._suptitle.get_window_extent(renderer).y0 >= top  # type: ignore[attr-defined]
+    assert "return 0–360°" in words(machine.circle_sheet(made))
 
 
 def test_a_cam_is_coloured_by_its_pressure_angle() -> None:
@@ -384,6 +401,15 @@ def test_vectors_are_in_real_time_where_the_sheet_of_motion_is(name: str) -> Non
     made = design(name)
     assert shown.speed_of(made) == pytest.approx(motion_sheet.courses(made)[0].speed, rel=1e-12)
     assert [vector_sheet.unit(made, order) for order in (1, 2)] == ["mm/s", "mm/s²"]
+
+
+@pytest.mark.slow
+def test_vectors_are_shown_where_they_are_largest_under_the_name_of_the_input() -> None:
+    """Of a cam they stood at the nearest of a thousand angles, of a gripper at `theta`."""
+    assert vector_sheet.default_places(design("lift_cam")) == pytest.approx([195.0, 174.877], abs=4e-3)
+    figure = vector_sheet.draw(design("swing_gripper"), [185.0])
+    assert figure.axes[0].get_title(loc="left").startswith("At cylinder angle 185°")
+    assert "F" in [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
 
 
 @pytest.mark.slow

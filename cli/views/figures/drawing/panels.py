@@ -68,14 +68,15 @@ class Phase:
         return [(start, end)] if end <= 360.0 else [(start, 360.0), (0.0, end - 360.0)]
 
 
-def page(title: str, share: float = 1.0, *, large: bool | None = None) -> Figure:
+def page(title: str, share: float = 1.0, *, large: bool | None = None, lying: bool = False) -> Figure:
     """A figure as wide as A4 or A3, and at most as high, so that printers take it to scale.
 
     share : height that it needs, that of A4 being 1
     large : whether it is on A3; by default where A4 would squeeze it too much
+    lying : the whole paper, on its long side
     """
     width, most = _A3 if (share > _SQUEEZED if large is None else large) else _A4
-    height = min(share * _A4[1], most)
+    width, height = (most, width) if lying else (width, min(share * _A4[1], most))
     letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
     made = style.figure(width, height, fill(title.replace("$", r"\$"), letters))
     engine: Any = made.get_layout_engine()

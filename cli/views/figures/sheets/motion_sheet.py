@@ -445,6 +445,10 @@ def zone_errors(design: Any, degrees: Reals, *, cams: bool = True) -> tuple[Real
     return np.asarray(one - other - offset), np.asarray((one_rate - other_rate) * speed)
 
 
+_ROUNDING = 1e-9
+"""Of mm and mm/s: what cams leave of the difference is that of floating-point numbers."""
+
+
 def zone(design: Any) -> Figure:
     """Bed minus cylinder in the synchronous zone: of the drives alone, and with the cams."""
     start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
@@ -462,6 +466,7 @@ def zone(design: Any) -> Figure:
         axes.axhline(0.0, color=style.GREY, linewidth=0.7)
         for (name, values), color, line in zip(errors.items(), panels.CAM_COLORS, panels.CAM_LINES, strict=False):
             most = float(np.abs(values[row]).max())
+            most = 0.0 if most < _ROUNDING else most
             label = f"{name}: at most {most:.3g} {unit}"
             axes.plot(x, values[row], color=color, linestyle=line, linewidth=1.5, label=label, gid=f"{words} {name}")
         axes.margins(y=0.12)

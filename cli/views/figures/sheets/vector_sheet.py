@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
@@ -83,20 +83,26 @@ def beyond(design: Any, at: Sequence[float]) -> str:
         low, high, unit = math.degrees(low), math.degrees(high), "deg"
     room = 1e-9 * (high - low)
     wrong = [each for each in at if given.turns is None and not low - room <= each <= high + room]
-    words = given.column.replace("_", " ")
+    words = _input_words(design)
     return f"{wrong[0]:g}: the {words} runs from {low:.7g} to {high:.7g} {unit}" if wrong else ""
 
 
+def _largest(motion: Any, q: Reals, order: int) -> int:
+    """Number of the input at which the rate of the first output is largest."""
+    size = np.abs(np.asarray(motion.outputs[0].course.rates(motion, q, order)[order]))
+    return int(np.where(np.isfinite(size), size, -1.0).argmax())
+
+
 def default_places(design: Any) -> list[float]:
-    """Inputs of the greatest velocity and acceleration of the first output [deg, mm], of a thousand."""
+    """Inputs of the greatest velocity and acceleration of the first output [deg, mm]: a thousand, then a hundred
+    beside the best."""
     motion = design.moving
     q = np.linspace(motion.input.start, motion.input.end, 1001)
-    rates = motion.outputs[0].course.rates(motion, q, 2)
     found = []
-    for rate in rates[1:]:
-        size = np.abs(np.asarray(rate))
-        finite = np.where(np.isfinite(size), size, -1.0)
-        found.append(float(q[int(finite.argmax())]))
+    for order in (1, 2):
+        k = _largest(motion, q, order)
+        near = np.linspace(q[max(k - 1, 0)], q[min(k + 1, 1000)], 101)
+        found.append(float(near[_largest(motion, near, order)]))
     shown_ = [math.degrees(each) if motion.input.unit == "rad" else each for each in found]
     return [round(each, 4) for each in dict.fromkeys(shown_)]
 
@@ -137,8 +143,20 @@ def frame_of(design: Any) -> shown.Frame:
     return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each), design.moving)
 
 
+def _input_words(design: Any) -> str:
+    """What the input is called: that of a gripper's tables is a letter."""
+    column: str = design.moving.input.column
+    return "cylinder angle" if column == "theta" else column.replace("_", " ")
+
+
+def _short(name: str, others: Iterable[str]) -> str:
+    """A point of a link, "output.F", by its own name where no other point has it."""
+    own = name.rpartition(".")[2]
+    return own if sum(other.rpartition(".")[2].lower() == own.lower() for other in others) == 1 else name
+
+
 def _input(design: Any, q: float) -> str:
-    words = design.moving.input.column.replace("_", " ")
+    words = _input_words(design)
     return f"{words} {math.degrees(q):.5g}°" if design.moving.input.unit == "rad" else f"{words} {q:.5g} mm"
 
 
@@ -201,7 +219,7 @@ def polygon(axes: Axes, design: Any, q: float, order: int) -> None:
     for point, end in ends.items():
         if all(abs(end - other) > 0.06 * reach for other in taken):
             away = end / abs(end) if abs(end) > 0.02 * reach else (1.0 + 1.0j) / math.sqrt(2.0)
-            word = point.lower()
+            word = _short(point, ends).lower()
             away *= labels.reach(away / abs(away), complex(0.5 * _LETTER * len(word), _LETTER)) + 3.5
             style.letter(axes, end, word, (away.real, away.imag))
             taken.append(end)
@@ -229,7 +247,8 @@ def hodographs(axes: Axes, design: Any, order: int, wanted: str = "") -> None:
     chosen = {name: each for name, each in found.items() if not asked or name in asked}
     _vector_axes(axes, f"Hodographs, {_NAMES[order - 1]} [{unit(design, order)}]")
     for (name, each), color, line in zip(chosen.items(), cycle(_COLORS), cycle(_LINES), strict=False):
-        axes.plot(each.real, each.imag, color=color, linestyle=line, linewidth=1.3, label=name, gid=f"hodograph {name}")
+        look: dict[str, Any] = {"color": color, "linestyle": line, "linewidth": 1.3, "gid": f"hodograph {name}"}
+        axes.plot(each.real, each.imag, label=_short(name, found), **look)
         axes.plot(each.real[:1], each.imag[:1], "o", color=color, markersize=4)
         if given.unit == "rad" and given.turns == 1:
             axes.plot(each.real[60:-1:60], each.imag[60:-1:60], ".", color=color, markersize=3)
