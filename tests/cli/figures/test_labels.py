@@ -47,6 +47,12 @@ def _cases() -> list[Case]:
     add("six_bar_swing", "analyze", links__coupler_2=[120.0, 170.0], links__coupler_1=[10.0, 36.0])
     add("mutilated_gear_press", "analyze", links__crank=[10.0, 55.0], links__frame=[110.0, 200.0])
     add("wide_lever", "analyze", gears__coupler=[24, 90])
+    add("lift_cam", "analyze", limits__pressure_angle=[[35, 25]], cam=[{"prime_radius": 45, "sense": -1}])
+    add("loaded_cam", "loads", follower__inertia=[0.0001, 4.0])
+    add("planar_cam", "loads", input_speed=[600.0])
+    add("loaded_feed", "loads", links__crank=[5.0, 45.0])
+    add("loaded_press", "loads", speed=[9000.0])
+    add("wide_swing_cycle", "cam", swing=[60.0, 170.0])
     add("ty460", "press", compensation=[None])
     add("swing_gripper", "gripper", speed=[3000.0, 18000.0])
     return found
