@@ -50,9 +50,9 @@ REGISTER = Rule(
 PLACE = Rule(
     "GL516",
     "position of cylinder or gear 1 differs from the machine",
-    "loads.cylinder_direction puts the cylinder on the side of the bed on which its surface runs against the bed's, "
-    "through the pitch line of the bed's rack, or over the slide line or an axis (A, D, G, N); or "
-    "loads.gear_1_direction is another one than that of the axes' distances. A warning: torque and chains do not "
+    "With loads.cylinder_direction the cylinder lies where it cannot print: on the side of the bed on which the "
+    "surfaces run against each other, across the pitch line of the bed's rack, or over the slide line or an axis (A, "
+    "D, G, N). Or loads.gear_1_direction does not fit the distances of the axes. A warning: torque and linkages do not "
     "depend on it.",
     "The bearing forces of gears and cylinder are those of a machine that cannot be built, or that does not print.",
     "With loads.bed_side -1 and gravity [9.81, 0] the machine is as it is drawn: then give the direction in which the "

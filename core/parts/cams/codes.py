@@ -87,10 +87,10 @@ CONSTANT_SUM = Rule(
 LIFT_OFF = Rule(
     "GL406",
     "lift-off of the roller",
-    "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
-    "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
-    "given). A file without `spring` is warned of: each roller has a rocker of its own, and only a spring between them "
-    "presses the two on their cams.",
+    "At the design speed the inertia of the follower exceeds the force of the spring, or the speed margin is below a "
+    "tenth. No value is given where nothing presses both rollers of a pair to their cams: both lie on one side of the "
+    "cam, or the spring pushes. A warning for a pair without `spring`: each roller has a rocker of its own, and only a "
+    "spring between them presses both.",
     "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
     "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
     "past the cam axis.",

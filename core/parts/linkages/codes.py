@@ -22,26 +22,18 @@ GEAR_COLLISION = Rule(
 SHAFT_CLEARANCE = Rule(
     "GL302",
     "gear, rim or roller reaches a shaft",
-    "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
-    "or they leave less clearance to the axis of a shaft whose radius the file does not name than the minimum shaft "
-    "radius (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less clearance to the axis "
-    "of its "
-    "rocker, gripper or drum than a shaft as thick as the roller takes; so are a gripper's arm and the cylinder that "
-    "takes the sheet and the axes of cam and cam rocker, and its links and rollers, over the whole "
-    "revolution, next to "
-    "every axis that they do not turn about (links are lines, which may come as near to the middle of a shaft as the "
-    "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring and the rockers' axis; a gripper's "
-    "limits.least_shaft replaces its roller's radius. So are the links of a wide swing (device, slider's rod "
-    "and arm, drive, the arm of an internal profile's roller) and a gear whose own shaft leaves less rim below its "
-    "teeth than half their height.",
-    "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
-    "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
-    "that it is checked.",
+    "A part that turns or swings reaches a shaft that crosses its plane: a gear with its tips, a ring gear with its "
+    "teeth or its rim, a cam or its roller, a link, a spring, or another shaft. If the file gives the shaft's radius, "
+    "reaching it fails. If not, the check warns where less than the minimum shaft radius is left: limits.least_shaft, "
+    "2 modules of gears, the radius of the roller or cam.shaft_radius of cams. Links count as lines without width. "
+    "Also a gear on its own shaft: the rim below its teeth is at least half a tooth depth.",
+    "The shaft cannot pass through this plane: it must end before it (be overhung).",
+    "Overhang the shaft, make it thinner, or enlarge the distance; give its radius (shafts, cam.shaft_radius), so that "
+    "it is checked.",
     "minimum distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
-    "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
-    "greater of the two, each at its minimum over the cycle (below 0 what a shaft lacks to stay within, or without, "
-    "all round, and not how deep it is in the ring at a moment); links as lines of no width; rim = m (z/2 + 3.25) or "
-    "gears.rim; root radius - radius of the own shaft >= h/2",
+    "l3); ring gear: tip radius - distance - shaft radius (shaft within) or distance - rim - shaft radius (shaft "
+    "without), the greater of the two, each at its minimum over the cycle; rim = m (z/2 + 3.25) or gears.rim; own "
+    "shaft: root radius - shaft radius >= h/2",
     "own derivation; the minimum rim: ISO 6336-3",
     ("shaft-clearance", "shaft-seat", "body-clearance"),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears", "output_pins", "center_distance"),
