@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 import yaml
+from systems import UNIX
 
 from gearlink.cli.commands.schema import PATTERNS
 
@@ -81,6 +82,7 @@ def test_files_that_the_workflows_name_are_there() -> None:
     assert [name for name in named if not (ROOT / name).is_file()] == []
 
 
+@UNIX
 @pytest.mark.slow
 def test_the_action_runs_a_batch(tmp_path: Path) -> None:
     action = _read("action.yml")
@@ -95,6 +97,7 @@ def test_the_action_runs_a_batch(tmp_path: Path) -> None:
     assert (ended.returncode, ended.stderr) == (0, "")
 
 
+@UNIX
 def test_the_action_takes_every_line_of_its_paths(tmp_path: Path) -> None:
     """`read` stops at the first line unless told otherwise; designs of the others would pass unseen."""
     called = tmp_path / "gearlink" / "bin" / "gearlink"

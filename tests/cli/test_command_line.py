@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 from sweeps import mostly_slow
+from systems import LINUX, UNIX
 
 from gearlink.cli import main, process
 from gearlink.cli.exit_codes import ExitCode
@@ -283,6 +284,7 @@ def bash(line: str) -> subprocess.CompletedProcess[bytes]:
     return subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, env=every, check=False)
 
 
+@UNIX
 def test_closed_pipe_is_no_error() -> None:
     program = f"{TYPED} cam designs/ty460.yaml --format csv"
     command = f"{program} | head -n 1; exit ${{PIPESTATUS[0]}}"
@@ -316,6 +318,7 @@ def test_no_more_rows_are_made_than_somebody_reads(read: bool, monkeypatch: pyte
 _FAILS = "designs/thesis_example_3_as_printed.yaml"
 
 
+@UNIX
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("line", "status"),
@@ -338,6 +341,7 @@ def test_a_reader_that_leaves_early_does_not_change_the_status(line: str, status
     assert (ended.returncode, ended.stderr) == (status, b"")
 
 
+@LINUX
 @pytest.mark.parametrize(
     ("line", "status"),
     mostly_slow([("crank nosuch.yaml", 2), ("nosuch", 2), (f"analyze {_FAILS} --plot --out OUT", 1)], 1),
@@ -400,6 +404,7 @@ def test_a_share_is_written_in_plain_digits(gearlink: Any, crank: Path, share: s
     assert "--shard" in ended.err
 
 
+@LINUX
 @pytest.mark.parametrize("line", mostly_slow(["--version", "crank designs/ty460_slider_crank.yaml"], 1))
 def test_a_full_disk_is_said_without_traceback(line: str) -> None:
     command = [*PROGRAM, *line.split()]
@@ -411,6 +416,7 @@ def test_a_full_disk_is_said_without_traceback(line: str) -> None:
     )
 
 
+@UNIX
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("line", "status"),
@@ -481,6 +487,7 @@ class TestBatch:
         assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass", "pass"]
 
 
+@LINUX
 def test_a_process_with_too_little_memory_says_so() -> None:
     """Below the limit libraries would end the process with status 1, which says that a check failed."""
     line = f"ulimit -v 200000; {TYPED} check {_FAILS}"
@@ -489,6 +496,7 @@ def test_a_process_with_too_little_memory_says_so() -> None:
     assert ended.stderr.startswith(b"error: the memory of this process is limited to 195 MB")
 
 
+@LINUX
 @pytest.mark.slow
 @pytest.mark.parametrize("line", ["crank designs/ty460_slider_crank.yaml", "report designs/ty460.yaml --out OUT -q"])
 def test_the_least_memory_suffices(line: str, tmp_path: Path) -> None:

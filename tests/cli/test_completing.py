@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from factory import DESIGNS, each_kind
 from sweeps import mostly_slow
+from systems import LINUX
 
 from gearlink.cli import completing
 from gearlink.cli.commands.sheet import sheets_of
@@ -183,6 +184,7 @@ def _script(shell: str) -> str:
     return shlex.join([sys.executable, "-c", code])
 
 
+@LINUX
 @pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
@@ -195,6 +197,7 @@ def test_a_shell_is_answered(shell: str, line: str, wanted: str) -> None:
     assert wanted in asked(shell, line)
 
 
+@LINUX
 @pytest.mark.slow
 @pytest.mark.parametrize(("line", "wanted"), LINES)
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

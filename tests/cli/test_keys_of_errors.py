@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from systems import UNIX
 
 from gearlink.cli.quiet import without_notes
 
@@ -65,6 +66,7 @@ def test_a_pipe_that_nobody_fills_is_not_waited_for(gearlink: Any, tmp_path: Pat
     assert "give - and the pipe as standard input" in ended.out + ended.err
 
 
+@UNIX
 def test_a_pipe_that_a_shell_has_opened_is_read(gearlink: Any) -> None:
     reading, writing = os.pipe()
     with open(writing, "w") as stream:
@@ -81,6 +83,7 @@ def test_libraries_keep_their_notes_while_they_are_loaded() -> None:
     assert logger.isEnabledFor(logging.WARNING)
 
 
+@UNIX
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [["cam", "--plot", "--quantity", "min_radius"], ["export", "--part", "main_cam"]])
 def test_a_home_that_cannot_be_written_changes_nothing(designs: Path, tmp_path: Path, words: list[str]) -> None:
@@ -97,6 +100,7 @@ def _pipe_with(data: bytes) -> str:
     return f"/dev/fd/{reading}"
 
 
+@UNIX
 def test_two_pipes_that_a_shell_has_opened_are_compared(gearlink: Any, designs: Path) -> None:
     """As in `gearlink diff <(git show HEAD:a.yaml) a.yaml`: what is looked at first is not lost."""
     rack = (designs / "rack_drive.yaml").read_bytes()

@@ -21,6 +21,7 @@ from factory import each_kind
 from matplotlib.path import Path as Outline
 from PIL import Image
 from sweeps import mostly_slow
+from systems import UNIX
 
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.options import Options
@@ -410,6 +411,7 @@ def _ffmpeg(folder: Path, script: str) -> None:
     program.chmod(0o755)
 
 
+@UNIX
 def test_mp4_is_fed_with_every_picture(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -422,6 +424,7 @@ def test_mp4_is_fed_with_every_picture(
     assert (path.name, path.stat().st_size) == ("thesis-example-1-motion.mp4", 4 * 240 * 180 * 3)
 
 
+@UNIX
 @pytest.mark.parametrize("script", ["echo it broke >&2; exit 1", "cat > /dev/null; echo it broke >&2; exit 1"])
 def test_nothing_is_left_where_ffmpeg_fails(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str

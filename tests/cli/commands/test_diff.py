@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import json
 import re
-import resource
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import pytest
 from conftest import ROOT
+from systems import LINUX
 
 from gearlink.cli.commands import diff
 from gearlink.cli.commands.diff import Change, Difference, relative_change, same, show_difference
@@ -368,7 +368,10 @@ def test_what_no_result_holds(gearlink: Any, two: Any, monkeypatch: pytest.Monke
     assert word in ended.err
 
 
+@LINUX
 def test_an_endless_file(gearlink: Any, two: Any) -> None:
+    import resource
+
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     ended = gearlink("diff", "/dev/zero", two(CRANK, CRANK)[0])
     assert ended.status == 2

@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 import yaml
 from sweeps import ALL, mostly_slow
+from systems import UNIX
 
 from gearlink.cli.exploring import store as stores
 
@@ -79,6 +80,7 @@ def chunks(store: Path) -> int:
         return -1
 
 
+@UNIX
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", mostly_slow([*range(20)], 1))
 def test_killed_at_any_moment_and_continued_it_is_the_same(
@@ -106,6 +108,7 @@ def alive(group: int) -> bool:
     return True
 
 
+@UNIX
 @pytest.mark.slow
 def test_interrupted_it_says_how_to_continue(study: Path, tmp_path: Path) -> None:
     store = tmp_path / "s.sqlite"
