@@ -71,6 +71,17 @@ def test_commands_need_nothing_that_windows_lacks(words: tuple[str, ...], tmp_pa
 
 
 @pytest.mark.slow
+def test_all_tests_are_collected_without_modules_of_unix() -> None:
+    """A file that imports one at its top would end the run of the CI on Windows."""
+    code = "import sys; sys.modules |= dict.fromkeys(('resource', 'fcntl', 'termios', 'pty', 'grp', 'pwd'))\n"
+    code += (
+        "import pytest; sys.exit(pytest.main(['-q', '-p', 'no:logging', '--collect-only', '-m', 'not slow', 'tests']))"
+    )
+    ended = _process(code=code)
+    assert ended.returncode == 0, ended.stdout[-2000:]
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [

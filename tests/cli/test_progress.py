@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import io
 import os
-import pty
 import subprocess
 import sys
 import time
@@ -165,6 +164,8 @@ print("done", file=sys.stderr)
 @pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 def test_processes_are_forked_while_it_is_drawn() -> None:
     """The thread that draws holds no lock that a forked process would find taken, and wait for."""
+    import pty
+
     reader, terminal = pty.openpty()
     with subprocess.Popen([sys.executable, "-c", FORKING], stderr=terminal) as forking:
         os.close(terminal)

@@ -11,7 +11,6 @@ import io
 import json
 import os
 import re
-import resource
 import signal
 from collections.abc import Iterator
 from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
@@ -160,6 +159,7 @@ def test_a_few_mutated_files(tmp_path: Path) -> None:
 @pytest.mark.stress
 @pytest.mark.parametrize("part", range(PARTS))
 def test_many_mutated_files(part: int, tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
     import_all()
     begun, before = perf_counter(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     draws = range(part, MANY, PARTS)
