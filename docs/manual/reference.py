@@ -137,7 +137,8 @@ def _check(rule: Rule) -> str:
         command = FAILING[rule.code]
         file = re.search(r"designs/(\w+)\.yaml", command)
         shown = f"[{file[1]}](../gallery.md#{file[1]})" if file and (ROOT / file[0]).exists() else "a design"
-        lines += [f"## Example\n\nThis check does not pass for {shown}, changed as the command says:\n"]
+        what = "This check does not pass for" if rule.checks else "This is reported of"
+        lines += [f"## Example\n\n{what} {shown}, changed as the command says:\n"]
         lines += [f"```console\n$ gearlink {command}\n```\n"]
     return "\n".join(line for line in lines if line)
 
