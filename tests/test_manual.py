@@ -65,6 +65,13 @@ def test_equations_are_typeset(page: str, block: str) -> None:
     assert not re.search(r"\\[a-z]", left), f"{page}: {left}"
 
 
+@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.stem)
+def test_equations_within_text_end_in_their_line(path: Path) -> None:
+    """Others are left as they are written."""
+    text = re.sub(r"(?ms)^(`{3,}).*?^\1[^\n]*$", "", WRITTEN[path])
+    assert [line for line in text.split("\n") if re.sub(r"`[^`]*`", "", line).count("$") % 2] == []
+
+
 def test_an_equation_at_the_start_of_a_line_stays_in_its_paragraph() -> None:
     from markdown import markdown
 
