@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import keep
 
 Spec = Any
 _FEWEST = 8
@@ -91,7 +92,7 @@ def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
     for name in names:
         value = getattr(found, name)
         for row, owner in enumerate(owners):
-            vars(owner)[name] = _of_row(value, row)
+            keep(owner, **{name: _of_row(value, row)})
 
 
 def _of_row(value: Any, row: int) -> Any:

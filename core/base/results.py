@@ -29,6 +29,23 @@ def step(name: str) -> AbstractContextManager[None]:
     return nullcontext() if _observer is None else _observer(name)
 
 
+def keep(owner: Any, **results: Any) -> None:
+    """Let an owner keep results that are known already: they are not computed when they are asked for.
+
+    Raises
+        TypeError - for a name that is no kept result of the owner's class
+    """
+    for name, value in results.items():
+        if not isinstance(getattr(type(owner), name, None), functools.cached_property):
+            raise TypeError(f"{type(owner).__name__}.{name} is not a result that is kept")
+        owner.__dict__[name] = value
+
+
+def kept(owner: Any, *names: str) -> dict[str, Any]:
+    """Those of the named results that an owner keeps already, with their values."""
+    return {name: owner.__dict__[name] for name in names if name in owner.__dict__}
+
+
 if TYPE_CHECKING:
     from functools import cached_property as cached_property
 else:

@@ -14,7 +14,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.courses import coordinate
@@ -185,7 +185,7 @@ class CylindricalCamDesign(OfFollower, Design):
             many = cls(together([design.spec for design in some], ("motion", "initial_lift", "speed")))
             of_motion = {name: getattr(some[0], name) for name in ("follower_motion", "motion_extremes")}
             for design in (many, *some):
-                vars(design).update(of_motion)
+                keep(design, **of_motion)
             hand_out(many, some, "steepest", "pressure_angle_outside", "bends", "walls")
 
         sought(find, designs)

@@ -18,7 +18,7 @@ from sweeps import examples
 from gearlink.core.base.design import Design, Outline, UnknownName, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.report import Check, Report, Table, safely_above, safely_below
-from gearlink.core.base.results import cached_property, observed, step
+from gearlink.core.base.results import cached_property, keep, kept, observed, step
 from gearlink.core.parts.gears.codes import CONTACT_RATIO
 from gearlink.core.parts.linkages.codes import TRANSMISSION_ANGLE
 
@@ -357,3 +357,20 @@ def test_recommended_bounds_hold_as_printed(value, digits):
 )
 def test_recommended_bounds(value, low, high):
     assert (safely_below(value), safely_above(value)) == (low, high)
+
+
+def test_a_result_that_is_known_is_not_computed_and_a_wrong_name_is_refused() -> None:
+    class Owner:
+        plain = 1.0
+
+        @cached_property
+        def found(self) -> float:
+            raise AssertionError
+
+    owner = Owner()
+    assert kept(owner, "found") == {}
+    keep(owner, found=2.0)
+    assert (owner.found, kept(owner, "found")) == (2.0, {"found": 2.0})
+    for name in ("plain", "fuond"):
+        with pytest.raises(TypeError, match=rf"Owner\.{name} is not a result that is kept"):
+            keep(owner, **{name: 3.0})

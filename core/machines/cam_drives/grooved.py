@@ -14,7 +14,7 @@ from gearlink.core.base.errors import NoSolution, in_section
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Shown, Status, Table
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, within
 from gearlink.core.mechanism.closures import dyad
 from gearlink.core.mechanism.courses import turned
@@ -240,10 +240,10 @@ class Grooved(RealSpeed, Design):
             many, first = cls(spec), some[0]
             of_motion = {"output_motion": first.output_motion, "_rates": first._rates}
             for design in (many, *some):
-                vars(design).update(of_motion)
+                keep(design, **of_motion)
             hand_out(many, some, *cls.beside)
             grooves = [design.groove for design in some]
-            vars(many)["groove"] = Groove(many.path, spec.roller_radius, first.output_motion.joints)
+            keep(many, groove=Groove(many.path, spec.roller_radius, first.output_motion.joints))
             hand_out(many.groove, grooves, "extremes", "sharpest", "hollow", "star_shaped")
 
         sought(find, designs)

@@ -13,7 +13,7 @@ from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.many_designs import column, hand_out, together
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
 from gearlink.core.machines.disc_cam.cams import Place
 from gearlink.core.numerics.arrays import Reals
@@ -684,10 +684,10 @@ def _shared_motion(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> No
     """The motion of the first, and what is of it alone."""
     first = designs[0]
     for design in designs:
-        vars(design.cams)["motion"] = first.cams.motion
+        keep(design.cams, motion=first.cams.motion)
     hand_out(first.cams, [design.cams for design in designs], "lifts")
     for design in designs:
-        vars(design)["motion_extremes"] = first.motion_extremes
+        keep(design, motion_extremes=first.motion_extremes)
     if "servo_error" in names:
         hand_out(first.making, [design.making for design in designs], "servo_rows", "servo_error")
 
@@ -696,8 +696,8 @@ def _found(designs: Sequence[DiscCamDesign], spec: DiscCamSpec, names: Sequence[
     first = designs[0]
     many = type(first)(spec)
     hand_out(first.cams, [many.cams], "lifts")
-    vars(many.cams)["motion"] = first.cams.motion
-    vars(many.cams)["place"] = Place(*map(column, zip(*(design.cams.place for design in designs), strict=True)))
+    keep(many.cams, motion=first.cams.motion)
+    keep(many.cams, place=Place(*map(column, zip(*(design.cams.place for design in designs), strict=True))))
     wanted = {"max_pressure_angle", "max_radius", "min_radius"}.intersection(names)
     if spec.cam.shaft_radius:
         wanted.add("min_radius")
@@ -722,10 +722,10 @@ def _forces(many: DiscCamDesign, designs: Sequence[DiscCamDesign]) -> None:
     if spring is None:
         return
     closings = [design.closing for design in designs]
-    vars(many.closing)["inertia"] = column([one.inertia for one in closings])
+    keep(many.closing, inertia=column([one.inertia for one in closings]))
     if spring.preload is None:
         _give(many, designs, "closing", "lacking")
-    vars(many.closing)["preload"] = column([one.preload for one in closings])
+    keep(many.closing, preload=column([one.preload for one in closings]))
     if closings[0].inertia:
         _give(many, designs, "closing", "loosest")
         if all(one.loosest.value < 0.0 for one in closings):

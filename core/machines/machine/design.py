@@ -11,7 +11,7 @@ from gearlink.core.base.design import Design, Found, NamesOfFile, Outline, Unkno
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Shown, Status, Table
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
@@ -194,7 +194,7 @@ class Machine(OfMembers):
         from gearlink.core.machines.machine.series import Members
 
         made = type(self)(spec)
-        vars(made)["members"] = Members(spec, self.members.known)
+        keep(made, members=Members(spec, self.members.known))
         return made
 
     def found_of(self, member: str, design: Design, check: str) -> list[Check]:

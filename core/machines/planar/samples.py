@@ -19,6 +19,7 @@ import numpy as np
 from gearlink.core.base.design_axis import Evaluated, Findings
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Check
+from gearlink.core.base.results import keep
 from gearlink.core.base.spec_paths import value_at
 from gearlink.core.machines.planar.course import AsMade, Course
 from gearlink.core.machines.planar.design import PlanarMechanism, folded
@@ -66,7 +67,7 @@ class PlayedMechanism(PlanarMechanism):
     def __init__(self, spec: Any, plays: Mapping[str, complex]) -> None:
         super().__init__(spec)
         self.plays = dict(plays)
-        vars(self)["structure"] = Structure(spec, self.plays)
+        keep(self, structure=Structure(spec, self.plays))
 
     def cut_for(self, nominal: PlanarMechanism, profiles: Mapping[str, float]) -> None:
         """Take the cams of the nominal design, with the errors of their profiles [mm] by cam."""
@@ -79,11 +80,11 @@ class PlayedMechanism(PlanarMechanism):
             }
             for (name, given), own in zip(nominal.spec.cams.items(), self.spec.cams.values(), strict=True)
         }
-        vars(self.structure)["cams"] = nominal.structure.cams
+        keep(self.structure, cams=nominal.structure.cams)
         course = Course(self.structure)
-        vars(course)["at_start"] = AsMade(self.structure, nominal.course.at_start, errors)
-        vars(course)["dyads"] = dyads(self.structure, nominal.course.system)
-        vars(self)["course"] = course
+        keep(course, at_start=AsMade(self.structure, nominal.course.at_start, errors))
+        keep(course, dyads=dyads(self.structure, nominal.course.system))
+        keep(self, course=course)
 
 
 class _Hump(NamedTuple):
@@ -269,12 +270,12 @@ class PlanarSamples:
         sizes = {key: values for key, values in columns.items() if not key.startswith(_PIN)}
         structure = Structure(nominal.spec, plays, sizes)
         if nominal.spec.cams:
-            vars(structure)["cams"] = nominal.structure.cams
+            keep(structure, cams=nominal.structure.cams)
             system = AsMade(structure, start, _errors_of_cams(nominal, columns)).running
         else:
             rows = (*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts))
             system = System(len(structure.bodies), pins_of(structure), rows)
-        vars(system)["blocks"] = self.system.blocks
+        keep(system, blocks=self.system.blocks)
         return structure, system
 
     def change(self, structure: Structure) -> Reals:
@@ -551,7 +552,8 @@ class _Many:
     def __init__(self, samples: PlanarSamples, columns: Mapping[str, Any]) -> None:
         self.samples, self.count = samples, len(next(iter(columns.values())))
         self.design = PlanarMechanism(samples.nominal.spec)
-        vars(self.design)["structure"], self.system = samples.made(columns)
+        structure, self.system = samples.made(columns)
+        keep(self.design, structure=structure)
         self.unsure: Mask = self._uncertain()
         for stages in _STAGES:
             if len(some := np.flatnonzero(self.unsure)):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.report import safely_above, safely_below
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep, kept
 from gearlink.core.base.wording import unlike, within
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class Motion:
         """The motion of another file; what follows from its law alone is kept where that is the same."""
         made = Motion(spec)
         if all(name in _NOT_OF_LAW or value == getattr(self.spec, name) for name, value in spec):
-            vars(made).update({name: value for name, value in vars(self).items() if name in _OF_LAW})
+            keep(made, **kept(self, *_OF_LAW))
         return made
 
     @cached_property

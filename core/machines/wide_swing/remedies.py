@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import REFUSAL, at_least, at_most, down, either, up
+from gearlink.core.base.results import keep, kept
 from gearlink.core.base.spec_paths import changed, number_at
 
 if TYPE_CHECKING:
@@ -178,9 +179,7 @@ def varied(design: WideSwingDesign, spec: object) -> WideSwingDesign:
     """The design of another file; the law is kept where it is the same."""
     trial, given = type(design)(spec), design.spec
     if trial.spec.swing == given.swing and trial.spec.unloader == given.unloader and given.slider is None:
-        vars(trial.motion).update(
-            (name, value) for name, value in vars(design.motion).items() if name in ("device", "plain_law")
-        )
+        keep(trial.motion, **kept(design.motion, "device", "plain_law"))
     return trial
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.report import Table
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import (
     Extreme,
@@ -53,7 +53,7 @@ def seek_together(cams: Sequence[DiscCam]) -> None:
     for cam in cams:
         angle, curvature, greatest, least = next(found), next(found), next(found), next(found)
         extremes = angle, curvature, greatest.value, least.value
-        vars(cam).update(zip(FOUND_TOGETHER, extremes, strict=True))
+        keep(cam, **dict(zip(FOUND_TOGETHER, extremes, strict=True)))
 
 
 def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int) -> list[Extreme]:

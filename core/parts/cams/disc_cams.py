@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, kept
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Report
@@ -62,7 +62,7 @@ class DiscCams:
         from gearlink.core.parts.cams.disc_cam import FOUND_TOGETHER, seek_together
 
         with suppress(NoSolution):
-            if not any(name in vars(cam) for cam in self.discs for name in FOUND_TOGETHER):
+            if not any(kept(cam, *FOUND_TOGETHER) for cam in self.discs):
                 seek_together(self.discs)
 
     @cached_property

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 
@@ -176,7 +176,7 @@ class SliderCrank:
         """
         cls._require_turn(crank, rod, offset)
         made = cls(_stroke(crank, rod, offset, cls.fn), rod, offset)
-        vars(made)["crank_length"] = crank  # as it is given, not by way of the stroke
+        keep(made, crank_length=crank)  # as it is given, not by way of the stroke
         return made
 
     @classmethod

@@ -7,7 +7,7 @@ from typing import Any
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.report import Check, Shown, Status, Table
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import amount
 from gearlink.core.studies.codes import FEASIBLE, RANGE_END
 from gearlink.core.studies.explore.chunks import Miss, chunk_of, together
@@ -38,7 +38,7 @@ class Exploration(Design):
     def __init__(self, spec: StudySpec, found: Found | None = None) -> None:
         super().__init__(spec)
         if found is not None:
-            vars(self).update(problem=found.problem, found=found)
+            keep(self, problem=found.problem, found=found)
 
     @cached_property
     def problem(self) -> Problem:

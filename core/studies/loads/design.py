@@ -13,7 +13,7 @@ from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import Quantity, without_noise
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec_paths import number_at
 from gearlink.core.studies.loads import checks, tables
 from gearlink.core.studies.loads.checks import VIBRATION_CHECKS, residual_vibration, resonance, rigid_model
@@ -377,7 +377,7 @@ class LoadsDesign(Design):
         size = self.torque_size if "torque_reversals" in names else None
         turned = find_reversals(self.machine, pins, [mesh for mesh in meshes if mesh], size)
         if turned is not None:
-            vars(self)["torque_reversals"] = len(turned)
+            keep(self, torque_reversals=len(turned))
         find_ways(self.machine, pins, pressed=any(name in ("equivalent", "life") for _, _, name in asked))
 
     @cached_property

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep, kept
 from gearlink.core.mechanism.joints import Pin, ToothDrive, meshes_of
 from gearlink.core.mechanism.links import rates
 from gearlink.core.numerics.arrays import BLOCK, Reals
@@ -139,13 +139,13 @@ class PinLoad:
     def way(self) -> float:
         """Relative turning over the period, both senses counted [rad]."""
         find_ways(self.design.machine, [self], pressed=False)
-        return float(vars(self)["way"])
+        return float(kept(self, "way")["way"])
 
     @cached_property
     def _borne(self) -> float:
         """|F|^p over that way, F in shares of the peak [rad]."""
         find_ways(self.design.machine, [self])
-        return float(vars(self)["_borne"])
+        return float(kept(self, "_borne")["_borne"])
 
     @cached_property
     def equivalent(self) -> float | None:
@@ -269,15 +269,15 @@ def find_reversals(
     Returns
         places : input angles of those [rad]; with friction the torque comes with the forces of the meshes
     """
-    turning = [pin for pin in dict.fromkeys(pins) if pin.known and "reversals" not in vars(pin)]
+    turning = [pin for pin in dict.fromkeys(pins) if pin.known and not kept(pin, "reversals")]
     for pin, found in zip(turning, zeros_of([pin.rate for pin in turning], machine.period, machine.turns), strict=True):
-        vars(pin)["reversals"] = found
-    rolling = [mesh for mesh in dict.fromkeys(meshes) if "reversal_places" not in vars(mesh)]
+        keep(pin, reversals=found)
+    rolling = [mesh for mesh in dict.fromkeys(meshes) if not kept(mesh, "reversal_places")]
     functions: list[tuple[Function, float]] = [(mesh.force, mesh.tooth_force_max) for mesh in rolling]
     functions += [] if torque_size is None else [(machine.torque, torque_size)]
     places = places_of(functions, machine)
     for mesh, found in zip(rolling, places, strict=False):
-        vars(mesh)["reversal_places"] = found
+        keep(mesh, reversal_places=found)
     return None if torque_size is None else places[-1]
 
 
@@ -310,8 +310,8 @@ def find_ways(machine: Machine, pins: Sequence[PinLoad], *, pressed: bool = True
         sums[:, cut] = 0.0
         again = [more.each(v) for v in pin.rates_of(machine, more.nodes, pressed=with_force)] if len(cut) else []
         whole = [math.fsum([*one, *(again[i] if again else ())]) for i, one in enumerate(sums.tolist())]
-        vars(pin).update(zip(("way", "_borne"), whole, strict=False))
+        keep(pin, **dict(zip(("way", "_borne"), whole, strict=False)))
 
 
 def _has_way(pin: PinLoad, pressed: bool) -> bool:
-    return ("_borne" if pressed else "way") in vars(pin)
+    return bool(kept(pin, "_borne" if pressed else "way"))

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlink.core.base.results import keep, kept
 from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
 from gearlink.core.mechanism.friction import LOCKED, LOCKS, Coefficients, SelfLocking, passes_ratio, with_friction
 from gearlink.core.mechanism.joints import Coupling, Pin
@@ -134,7 +135,7 @@ class Machine:
         """Slices of very many rows, and for each the machine with nothing kept, so that it ends with its block."""
         for start in range(0, rows, block):
             made = replace(self, motion=self.motion.anew(), kept={}, kept_few={}, kept_sums={})
-            vars(made).update({name: vars(self)[name] for name in ("locking", "breaks") if name in vars(self)})
+            keep(made, **kept(self, "locking", "breaks"))
             yield slice(start, start + block), made
 
     def reactions(self, phi: Reals) -> Reactions:

@@ -11,6 +11,7 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.many_designs import Unlike, column, hand_out, together
+from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import unit_at
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.studies.explore.base import Base
@@ -158,11 +159,12 @@ def test_what_differs_by_words_stands_in_no_column() -> None:
 
 def test_results_are_handed_out_row_by_row() -> None:
     class Holder:
-        def __init__(self, value: Any) -> None:
-            self.value = value
+        @cached_property
+        def value(self) -> Any:
+            return np.array([[1.0], [2.0]]), 7.0, None
 
-    owners = [Holder(None), Holder(None)]
-    hand_out(Holder((np.array([[1.0], [2.0]]), 7.0, None)), owners, "value")
+    owners = [Holder(), Holder()]
+    hand_out(Holder(), owners, "value")
     assert [owner.value for owner in owners] == [(1.0, 7.0, None), (2.0, 7.0, None)]
 
 
