@@ -96,13 +96,6 @@ class CylinderChain:
         """Travel of a revolution of the input [mm]."""
         return 2.0 * math.pi * self.radius * self.gear_ratio
 
-    def jerk(self, input_angle: Any) -> Any:
-        """Third derivative of the cylinder's travel, over an array of input angles [mm/rad^3]."""
-        from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-
-        state = fourbar_sweep.solve(self.linkage, self.initial_angle - input_angle, 3)
-        return self.radius * self.gear_ratio * state.rocker_jerk
-
 
 @dataclass(frozen=True)
 class BedChain:
@@ -171,22 +164,6 @@ class BedChain:
         psi = start + (rocker - start) - self.crank_offset_angle
         depth = slider_crank.slider(psi, self.slider_crank_length, self.rod, self.offset, 1)
         return float(-2.0 * depth[1] * rate)
-
-    def jerk(self, input_angle: Any) -> Any:
-        """Third derivative of the bed's travel before compensation, over an array of input angles [mm/rad^3].
-
-        p''' = -2 (h''' c'^3 + 3 h'' c' c'' + h' c'''),  c the cam angle
-
-        Source
-            own derivation: the chain rule once more
-        """
-        from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-
-        state = fourbar_sweep.solve(self.linkage, self.initial_crank_angle + input_angle, 3)
-        psi = state.rocker_angle - self.crank_offset_angle
-        _, h1, h2, h3 = slider_crank.slider_sweep(psi, self.slider_crank_length, self.rod, self.offset, 3)
-        c1, c2, c3 = state.rocker_velocity, state.rocker_acceleration, state.rocker_jerk
-        return -2.0 * (h3 * c1**3 + 3.0 * h2 * c1 * c2 + h1 * c3)
 
     def input_angle(self, cam_angle: Any) -> Any:
         """Input angle [rad] at a cam angle [rad]; a drag link gives exactly one."""

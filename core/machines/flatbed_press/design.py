@@ -963,10 +963,6 @@ class BedMotion:
         """Travel of the bed [mm] and its first two derivatives by the input angle."""
         return Travel(*self._course.rates(self.design.moving, input_angle, 2))
 
-    def jerk(self, input_angle: Reals) -> Reals:
-        """Third derivative of the bed's travel by the input angle [mm/rad^3]."""
-        return self._course.rates(self.design.moving, input_angle, 3)[3]
-
     @property
     def joints(self) -> tuple[float, ...]:
         """Input angles in [0, 2 pi) at which the law of the lift changes [rad]."""

@@ -18,6 +18,7 @@ from oracles.press import TY460
 from oracles.press_follower import lift
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.flatbed_press import mechanism
 
 pytestmark = pytest.mark.usefixtures("forty_digits")
 
@@ -61,8 +62,7 @@ def test_each_rate_is_the_derivative_of_the_one_before(name: str) -> None:
         edges = phi[::200]
         half = 0.5 * (edges[1:] - edges[:-1])
         inside = (0.5 * (edges[1:] + edges[:-1])[:, None] + half[:, None] * nodes).ravel()
-        lower = (*made.bed_motion.travel(edges), made.bed_motion.jerk(edges))
-        upper = (*made.bed_motion.travel(inside), made.bed_motion.jerk(inside))
+        lower, upper = (mechanism.bed(made).rates(made.moving, at, 3) for at in (edges, inside))
         for before, rate in zip(lower, upper[1:], strict=False):
             scale = float(np.abs(rate).max()) + float(np.abs(before).max())
             grown = half * (rate.reshape(-1, 12) @ weights)
@@ -77,8 +77,6 @@ def test_bed_goes_as_the_cylinder_in_the_zone(name: str) -> None:
     np.testing.assert_allclose(np.ptp(bed.value - cylinder.value), 0.0, rtol=0.0, atol=1e-11)
     np.testing.assert_allclose(bed.first, cylinder.first, rtol=1e-12)
     np.testing.assert_allclose(bed.second, cylinder.second, rtol=0.0, atol=1e-11 * np.abs(cylinder.second).max())
-    jerk = made.cylinder.jerk(phi)
-    np.testing.assert_allclose(made.bed_motion.jerk(phi), jerk, rtol=0.0, atol=1e-12 * np.abs(jerk).max())
 
 
 @pytest.mark.quick(2)
@@ -120,9 +118,7 @@ def test_without_a_cam_the_bed_is_its_chain() -> None:
     made = factory.design("ty460", cam=None)
     phi = np.linspace(0.0, 2.0 * math.pi, 20001)
     chain = made.bed.travel(phi, 2)
-    for one, other in zip(
-        (*made.bed_motion.travel(phi), made.bed_motion.jerk(phi)), (*chain, made.bed.jerk(phi)), strict=True
-    ):
+    for one, other in zip(made.bed_motion.travel(phi), chain, strict=True):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12 * np.abs(other).max())
     assert made.bed_motion.joints == ()
     assert made.quantity("bed_acceleration_min").value == pytest.approx(OMEGA**2 * chain.second.min(), rel=1e-6)

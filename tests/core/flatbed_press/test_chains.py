@@ -71,18 +71,6 @@ def test_twelve_positions_of_the_reference():
 # A second way
 
 
-@pytest.mark.parametrize("made", [bed_of, cylinder_of])
-@pytest.mark.parametrize("name", PRESSES)
-def test_jerk_is_the_slope_of_the_acceleration(name, made):
-    """Central differences of 1e-5 rad of a second derivative that is known to 2e-14 of its peak: 1e-8 of the jerk's."""
-    chain, step = made(PRESSES[name]), 1e-5
-    phi = np.radians(np.array(DEGREES, dtype=float))
-    jerk = chain.jerk(phi)
-    slope = (chain.travel(phi + step, 2).second - chain.travel(phi - step, 2).second) / (2.0 * step)
-    peak = np.abs(chain.jerk(np.radians(np.arange(0.0, 360.0, 2.0)))).max()
-    np.testing.assert_allclose(jerk, slope, rtol=0.0, atol=1e-8 * peak)
-
-
 @pytest.mark.parametrize("name", PRESSES)
 def test_start_of_the_bed_chain(name):
     press, bed = PRESSES[name], bed_of(PRESSES[name])

@@ -501,35 +501,29 @@ class TrueRoot:
         found: Points = self._pieces[0].points[self._panels("fillet")]
         return found
 
-    def _peak(self, stress: Reals, sign: float) -> Peak:
-        """The maximum stress away from the joints, between the nodes by the polynomial of each panel."""
+    @cached_property
+    def tension(self) -> Peak:
+        """The maximum tension in the fillet of the loaded flank, away from its joints.
+
+        Between the nodes by the polynomial of each panel.
+        """
         places = self.contour.pieces(self.load_radius)
         breaks = next(breaks for name, _, breaks in places if name == "fillet")
         low, high = (breaks[0] + share * (breaks[-1] - breaks[0]) for share in _SOUGHT)
         best = Peak(-math.inf, 0j)
         fine = np.linspace(-1.0, 1.0, 41)
         to_fine = np.vander(fine, ORDER) @ np.linalg.inv(np.vander(np.polynomial.legendre.leggauss(ORDER)[0], ORDER))
-        for panel, row in enumerate(stress):
+        for panel, row in enumerate(self.stresses[0]):
             start, end = breaks[panel], breaks[panel + 1]
             at = 0.5 * (start + end) + 0.5 * (end - start) * fine
             inside = (at >= low - 1e-12 * (end - start)) & (at <= high + 1e-12 * (end - start))
             if not inside.any():
                 continue
-            values = np.where(inside, sign * (to_fine @ row), -np.inf)
+            values = np.where(inside, to_fine @ row, -np.inf)
             k = int(np.argmax(values))
             if values[k] > best.factor:
                 best = Peak(float(values[k]), complex((to_fine @ self.fillet[panel])[k]))
         return best
-
-    @cached_property
-    def tension(self) -> Peak:
-        """The maximum tension, in the fillet of the loaded flank."""
-        return self._peak(self.stresses[0], 1.0)
-
-    @cached_property
-    def compression(self) -> Peak:
-        """The maximum compression, in the other fillet; its place in the mirror."""
-        return self._peak(self.stresses[1], -1.0)
 
 
 def true_root(data: GearData, gear: int) -> TrueRoot | None:
