@@ -12,6 +12,7 @@ from gearlink.core.numerics.together import Search, together
 
 _STEPS = 200
 _NEWTON_STEPS = 60
+_FAINTEST = 1e-300  # as good as no step: subnormal numbers have no full set of digits to settle in
 _RESTS = 1e-9  # of x, the last Newton step; the error that it leaves is its square
 
 
@@ -96,6 +97,35 @@ def newton_roots(
             given, moves = tuple(row[moves] for row in given), moves[moves]
     result[live] = x
     return result
+
+
+def newton_places(
+    excess: Callable[[Reals, Any], tuple[Reals, Reals]], start: Reals, high: float, floor: float = 0.0
+) -> Reals | None:
+    """Places between 0 and an end where rising functions are 0, by Newton's steps from near.
+
+    Parameters
+        excess : of places and the rows that they are of - values and slopes
+        start : (N,) array - near the places
+        high : float - the end
+        floor : float - values up to which a place rests
+    Returns
+        x : (N,) array or None - each to 1e-13 of itself, as if it stood alone; None where some do not rest
+    Example
+        >>> c = np.array([2.0, 9.0])
+        >>> newton_places(lambda x, rows: (x * x - c[rows], 2.0 * x), np.ones(2), 5.0)
+        array([1.41421356, 3.        ])
+    """
+    x, left = np.array(start), np.arange(start.size)
+    for _ in range(_NEWTON_STEPS):
+        if not left.size:
+            return x
+        value, slope = excess(x[left], left)
+        step = value / slope
+        # a step past an end stops there; the next one starts from the end
+        x[left] = at = np.clip(x[left] - step, 0.0, high)
+        left = left[~((np.abs(step) <= 1e-13 * at + _FAINTEST) | (np.abs(value) <= floor))]
+    return None
 
 
 def narrowed(x: Reals, a: Reals, b: Reals, fx: Reals, fa: Reals, fb: Reals) -> tuple[Reals, ...]:

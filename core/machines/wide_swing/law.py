@@ -39,6 +39,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series, midpoint_mean
 from gearlink.core.numerics.roots import roots_on
+from gearlink.core.numerics.roots_sweep import newton_places
 
 _MOST, _SIZE = 64, 4096
 Turned = TypeVar("Turned", bound=tuple[Any, ...])
@@ -84,10 +85,7 @@ __all__ = [
     "spring_rate",
 ]
 
-_NEWTON_STEPS = 40
 _GRID = np.linspace(0.0, 0.5 * math.pi, 129)
-# A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
-_FAINTEST = 1e-300
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -376,17 +374,14 @@ class ElasticLaw:
         angle = (self._from_middle if from_middle else self._from_start).places_of(k)
         # counted from mid-swing k itself is known to its last bit only
         floor = 4e-16 * scale if from_middle else 0.0
-        left = np.arange(k.size)
-        for _ in range(_NEWTON_STEPS):
-            at = angle[left]
+
+        def excess(at: Reals, rows: Any) -> tuple[Reals, Reals]:
             sine, cosine = (np.sin(at), np.cos(at)) if from_middle else (np.cos(at), np.sin(at))
-            excess = self._time_of(at, from_middle=from_middle) - k[left] * scale
-            step = excess / self.slowness(sine, cosine)
-            # a step past an end of the half stroke stops there; the next one starts from the end
-            angle[left] = at = np.clip(at - step, 0.0, 0.5 * math.pi)
-            left = left[~((np.abs(step) <= 1e-13 * at + _FAINTEST) | (np.abs(excess) <= floor))]
-            if not left.size:
-                return angle
+            return self._time_of(at, from_middle=from_middle) - k[rows] * scale, self.slowness(sine, cosine)
+
+        found = newton_places(excess, angle, 0.5 * math.pi, floor)
+        if found is not None:
+            return found
         raise NoSolution(
             "the law of motion reverses too sharply for its positions to be resolved",
             key="unloader.pivot_ratio",

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -28,17 +29,15 @@ from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.roots_sweep import newton_places
 from gearlink.core.parts.linkages.slider_crank import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
-_NEWTON_STEPS = 60
 _TOO_SHARP = (
     "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
     "the position where rod and arm are collinear, or lengthen slider.rod"
 )
 _GRID = np.linspace(0.0, math.pi, 257)
-# A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
-_FAINTEST = 1e-300
 
 
 def reference_inertia(rocker_inertia: float, mass: float, stroke: float, swing: float) -> tuple[float, float]:
@@ -374,15 +373,14 @@ class SliderLaw:
     def _invert(self, k: Reals, clock: CosineSeries, side: float) -> Reals:
         """Angle v = pi/2 - |u| counted from one end of the stroke, by Newton steps."""
         v = (self._from_start if side > 0.0 else self._from_end).places_of(k)
-        left = np.arange(k.size)
-        for _ in range(_NEWTON_STEPS):
-            at = v[left]
-            step = (self._time_of(at, clock) - k[left] * clock.total) / self._slowness(side * np.cos(at), np.sin(at))
-            # a step past an end of the stroke stops there; the next one starts from the end
-            v[left] = at = np.clip(at - step, 0.0, math.pi)
-            left = left[~(np.abs(step) <= 1e-13 * at + _FAINTEST)]
-            if not left.size:
-                return v
+
+        def excess(at: Reals, rows: Any) -> tuple[Reals, Reals]:
+            slowness = self._slowness(side * np.cos(at), np.sin(at))
+            return self._time_of(at, clock) - k[rows] * clock.total, slowness
+
+        found = newton_places(excess, v, math.pi)
+        if found is not None:
+            return found
         raise NoSolution(_TOO_SHARP, key="slider")
 
     @cached_property
