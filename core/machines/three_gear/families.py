@@ -188,14 +188,19 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
 
 
 def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
-    """The linkages whose transmission angle deviates from 90 deg equally at both ends."""
-    if is_internal(r1, r3, r5):
-        return _ring_balanced(r1, r3, r5, assembly)
-    b, c = r1 + r3, r3 + r5
+    """The linkages whose transmission angle deviates from 90 deg equally at both ends.
+
+    Raises
+        NoSolution - for a train with a ring whose output never just stops
+    """
+    b, c = abs(r1 + r3), abs(r3 + r5)
 
     def linkage(e: float) -> FourBar:
         return FourBar(e, b, c, math.sqrt((b - e) * (b + e) + c * c), assembly)
 
+    if is_internal(r1, r3, r5):
+        why = "these gears have no balanced linkage whose output steps back\nomit balanced, give crank or frame"
+        return _rising(r1, r3, r5, linkage, min(b, c, abs(r1)), why)
     try:
         return Family(linkage, 0.0, balanced_eccentricity(r1, r3, r5), min(b, c))
     except NoSolution as error:
@@ -472,17 +477,6 @@ def _ring_with_frame(r1: float, r3: float, r5: float, frame: float, assembly: in
     high = longest_crank(frame, b, c)
     why = f"frame: {short(frame)} mm, with which no crank makes the output step back\nchange the frame or the gears"
     return _rising(r1, r3, r5, lambda e: FourBar(e, b, c, frame, assembly), min(high, abs(r1)), why)
-
-
-def _ring_balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
-    """`balanced` of a train with a ring; raises NoSolution for gears whose output never just stops."""
-    b, c = abs(r1 + r3), abs(r3 + r5)
-
-    def linkage(e: float) -> FourBar:
-        return FourBar(e, b, c, math.sqrt((b - e) * (b + e) + c * c), assembly)
-
-    why = "these gears have no balanced linkage whose output steps back\nomit balanced, give crank or frame"
-    return _rising(r1, r3, r5, linkage, min(b, c, abs(r1)), why)
 
 
 def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> FourBar:
