@@ -113,10 +113,8 @@ def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]
 
 def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The unit of a number; empty where it has none, or one that another key names."""
-    if path and isinstance(path[-1], int):
-        around = (each for _, found in shapes_at(model, path[:-1], data)[0] for each in found)
-        if own := next((each.unit(path[-1]) for each in around if isinstance(each, Entries)), ""):
-            return own
+    if own := entry_unit_at(model, path, data):
+        return own
     said = [each for _, found in shapes_at(model, path, data)[0] for each in found]
     units = {each.name for each in said if isinstance(each, _Unit)}
     unit = units.pop() if len(units) == 1 else ""
@@ -124,6 +122,14 @@ def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     if turning is not None:
         unit = _of_follower(path, data, unit, turning)
     return "" if unit.startswith("the ") or path[:1] == ("tolerance",) else unit
+
+
+def entry_unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
+    """The unit that a list states for one of its entries alone, as a column of a table."""
+    if not path or not isinstance(path[-1], int):
+        return ""
+    around = (each for _, found in shapes_at(model, path[:-1], data)[0] for each in found)
+    return next((each.unit(path[-1]) for each in around if isinstance(each, Entries)), "")
 
 
 def _of_follower(path: KeyPath, data: Any, sliding: str, turning: str) -> str:
@@ -225,10 +231,10 @@ def _inside(shape: Any, step: str | int, section: Any) -> Iterator[Shape]:
 
 def _flat(annotation: Any, constraints: tuple[Any, ...] = ()) -> Iterator[Shape]:
     origin = get_origin(annotation)
-    if origin is Annotated:
+    if annotation is Any and (deferred := next((each for each in constraints if isinstance(each, Deferred)), None)):
+        yield from _flat(deferred.model(), tuple(each for each in constraints if each is not deferred))
+    elif origin is Annotated:
         inner, *extra = get_args(annotation)
-        if deferred := next((item for item in extra if isinstance(item, Deferred)), None):
-            inner = deferred.model()
         yield from _flat(inner, constraints + tuple(_constraints(extra)))
     elif origin in (Union, types.UnionType):
         for member in get_args(annotation):

@@ -147,13 +147,13 @@ def convert(loaded: LoadedFile, model: type[BaseModel]) -> list[Diagnostic]:
     found = [(path, text, parts) for path, text in _texts(loaded.data, ()) if (parts := split(text)) is not None]
     if not found:
         return []
-    from gearlink.cli.reading.model_shapes import shapes_at, unit_at
+    from gearlink.cli.reading.model_shapes import entry_unit_at, shapes_at, unit_at
 
     wrong: list[Diagnostic] = []
     for path, text, (number, written) in found:
         shapes = [shape for shape, _ in shapes_at(model, path, loaded.data)[0]]
         unit = unit_at(model, path, loaded.data)
-        if str in shapes or float not in shapes or not unit:
+        if float not in shapes or not unit or (str in shapes and not entry_unit_at(model, path, loaded.data)):
             continue
         name = next((str(step) for step in reversed(path) if isinstance(step, str)), "")
         value = converted(number, written, unit, name)

@@ -39,7 +39,11 @@ Direction = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "
 Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"})]
 Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
-Bar = Annotated[list[Name | Length], Field(min_length=3, max_length=3), Entries("[first point, second point, length]")]
+Bar = Annotated[
+    list[Name | Length],
+    Field(min_length=3, max_length=3),
+    Entries("[first point, second point, length]", "[A, B, 40]", ("", "", "mm")),
+]
 Points = Annotated[dict[Name, Vector], Field(min_length=1, max_length=100)]
 
 

@@ -129,6 +129,22 @@ def test_cells_of_a_table_have_the_unit_of_their_column() -> None:
     assert turned.motion.table[1] == pytest.approx([57.29577951308232, 5.729577951308232], rel=1e-15)
 
 
+def test_bars_and_sections_read_later_take_units() -> None:
+    """The length of a bar stands among names; the material of a gear is a model that is imported when it is there."""
+    made = spec(
+        "frame: {A: [0, 0], D: [6 in, 0]}\nlinks: {crank: [A, B, 2 in], coupler: [B, C, 6 in], rocker: [D, C, 5 in]}\n"
+        "drive: {link: crank}\nstart: {coupler: 30, rocker: 90}", "planar-mechanism"
+    )  # fmt: skip
+    assert made.links["crank"] == ["A", "B", 50.8]
+    pair = spec(
+        "module: 2\nteeth: [20, 40]\nprofile_shift: [0, 0]\n"
+        "material: {contact_limit: [1 GPa, 900], bending_limit: 60 ksi}",
+        "gear-pair",
+    )
+    assert pair.material.contact_limit == [1000.0, 900.0]
+    assert pair.material.bending_limit == pytest.approx(413.6854375901017, rel=1e-12)
+
+
 def test_loads_and_set_take_units() -> None:
     loaded = parse(HEAD + b"stroke: 310\nrod: 520\nloads: {speed: 2 Hz, links: {slider: {mass: 10 lb}}}", "x.yaml",
                    overrides=["stroke=0.31 m"])  # fmt: skip
