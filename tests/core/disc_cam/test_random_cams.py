@@ -120,7 +120,7 @@ def faces(data: dict[str, Any], lift: Any, phi: Any) -> tuple[Any, Any]:
 
 
 CASES = [
-    pytest.param(name, seed, marks=[] if seed == 0 else pytest.mark.slow) for name in FOLLOWERS for seed in range(25)
+    pytest.param(name, seed, marks=[] if seed == 0 else pytest.mark.slow) for name in FOLLOWERS for seed in range(100)
 ]
 
 
