@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import at_key
+from gearlink.core.base.remedies.ways import down, up
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec
@@ -163,6 +164,11 @@ class CylindricalCamDesign(OfFollower, Design):
         ),
     )
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
+    requirements = Design.requirements | {"motion", "limits.pressure_angle"}
+    ways = {
+        "pressure-angle": (up("cam.radius"), down("cam.depth")),
+        "cam-undercut": (up("cam.radius"), down("follower.roller_radius")),
+    }
     extra_tables = ("walls", LAW_TABLE)
     advises = False
 

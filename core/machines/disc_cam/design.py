@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -12,6 +12,7 @@ from gearlink.core.base.design import Design, Found, Outline, in_unit, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.many_designs import column, hand_out, together
 from gearlink.core.base.nomenclature import term
+from gearlink.core.base.remedies.ways import Way, down, either, up
 from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
@@ -94,6 +95,7 @@ _CHECKS = (
     "cutter-radius",
     *LAW_CHECKS,
 )
+_ENLARGED = (up("cam.prime_radius"), up("cam.base_radius"))
 _OUTLINE = Outline(_QUANTITIES, _CHECKS, ("follower", "main_cam", "return_cam"))
 
 
@@ -121,6 +123,15 @@ class DiscCamDesign(OfFollower, Design):
         ),
     )
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
+    requirements = Design.requirements | {"motion", "limits.pressure_angle"}
+    ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {
+        "pressure-angle": (*_ENLARGED, *either("follower.offset", "follower.center_distance")),
+        "cam-undercut": (*_ENLARGED, down("follower.roller_radius")),
+        "shaft-clearance": (*_ENLARGED, down("cam.shaft_radius")),
+        "lift-off": (up("spring.preload", step=1.0), up("spring.rate")),
+        "outer-wall": (*_ENLARGED, down("follower.roller_radius")),
+        "cutter-radius": (down("cam.cutter_radius"),),
+    }
     extra_tables: ClassVar[tuple[str, ...]] = ("outer_wall", "cutter", "radius", "errors", "servo", LAW_TABLE)
     advises = False
 

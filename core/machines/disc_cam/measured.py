@@ -563,6 +563,7 @@ class MeasuredCamDesign(DiscCamDesign):
     extreme_names = ()
 
     at_once = Design.at_once
+    ways = Design.ways
 
     @classmethod
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:

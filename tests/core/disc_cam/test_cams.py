@@ -261,3 +261,20 @@ def test_a_conjugate_pair_is_sized_by_both_rollers(name: str) -> None:
         shares.append(radius * bend / 0.8)
     assert max(shares) <= 1.0 + 1e-6
     assert max(shares) >= 1.0 - 1e-3
+
+
+@pytest.mark.parametrize(
+    ("cam", "code", "key"),
+    [
+        ({"prime_radius": 25}, "GL401", "cam.prime_radius"),
+        ({"prime_radius": 60, "shaft_radius": 52}, "GL302", "cam.prime_radius"),
+    ],
+)
+def test_a_failing_cam_is_told_a_value_that_was_tried(cam: dict[str, float], code: str, key: str) -> None:
+    motion = [{"to": 90, "lift": 18}, {"to": 170}, {"to": 270, "lift": 0}, {"to": 360}]
+    follower = {"type": "translating-roller", "roller_radius": 9}
+    data = {"kind": "disc-cam", "name": "x", "motion": motion, "follower": follower, "cam": cam}
+    (check,) = [one for one in factory.design(data, command="cam").report("cam").checks if one.status == "fail"]
+    assert (check.code, check.remedy[0][0]) == (code, key)
+    changed = data | {"cam": cam | {key.removeprefix("cam."): check.remedy[0][1]}}
+    assert all(one.status == "pass" for one in factory.design(changed, command="cam").report("cam").checks)
