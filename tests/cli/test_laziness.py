@@ -243,6 +243,19 @@ def test_a_picture_imports_neither_pyplot_nor_scipy(tmp_path: Path) -> None:
     assert not drawn & {"matplotlib.pyplot", "scipy"}
 
 
+@pytest.mark.slow
+def test_an_animation_imports_no_matplotlib() -> None:
+    """What moves is drawn by another library: the scene of a kind stands beside its figure, and needs none of it."""
+    probe = (
+        "import sys; from gearlink.core.base.kind import load; from gearlink.core.base.kinds import FILES\n"
+        "places = {kind.scene for kind in FILES.values() if kind.scene}\n"
+        "assert all(callable(load(place)) for place in places) and len(places) > 10\n"
+        "print([name for name in sys.modules if name.startswith('matplotlib')])"
+    )
+    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
 _EVALUATED = [
     # command, design, quantity, what else the design works out for it
     ("synth dwell", "candy_feed", "crank_teeth", ""),

@@ -10,7 +10,8 @@ from matplotlib.ticker import MaxNLocator
 
 from gearlink.cli.views.figures import write
 from gearlink.cli.views.figures.drawing import style
-from gearlink.cli.views.figures.drawing.panels import RoundNumbers, powers_of_ten
+from gearlink.cli.views.figures.drawing.own import RoundNumbers
+from gearlink.cli.views.figures.drawing.panels import powers_of_ten
 
 
 @pytest.mark.parametrize("view", [(0.0, 9.7), (-3.3, 8.0), (1e6, 1e6 + 0.7), (5.0, -2.4), (0.0, 10.0)])

@@ -11,11 +11,6 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import east_asian_width
 
 import numpy as np
-from matplotlib.lines import Line2D
-from matplotlib.markers import TICKDOWN
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path
-from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 from gearlink.cli.views.figures.drawing import failing, style
 from gearlink.cli.views.scenes.scene import PHASE_TINTS
@@ -235,6 +230,7 @@ def _few_ticks(axes: Axes, most: int) -> None:
 
 def few_ticks(axis: Axis, most: int = 6) -> None:
     """Round numbers along an axis, as many whatever its length, which the layout changes after it has measured them."""
+    from gearlink.cli.views.figures.drawing.own import RoundNumbers
 
     axis.get_offset_text().set_fontsize(7)
     axis.set_major_locator(RoundNumbers(most))
@@ -361,30 +357,7 @@ def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, sha
     style.arrow(axes, end, 0.12 * radius * 1j * sense * (end - axis) / radius, style.BLACK)
 
 
-_STEPS = (1, 2, 2.5, 5, 10)
-_ROUNDING = 1e-10
-"""Of the axis, by which a number may lie beyond its ends and is drawn."""
-
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-class RoundNumbers(MaxNLocator):
-    """Round numbers along an axis, at most so many, and none beyond its ends.
-
-    matplotlib's own go a step beyond both; it makes them, their lines and their labels, and then leaves them out.
-    """
-
-    def __init__(self, most: int) -> None:
-        super().__init__(most, steps=list(_STEPS))
-
-    def __call__(self) -> Any:
-        """The numbers; where fewer than two lie within, all of them, for their digits tell from their distance."""
-        found = np.asarray(super().__call__())
-        axis: Any = self.axis
-        low, high = sorted(axis.get_view_interval())
-        beyond = _ROUNDING * (high - low)
-        within = found[(found >= low - beyond) & (found <= high + beyond)]
-        return within if len(within) > 1 else found
 
 
 def powers_of_ten(axis: Axis) -> None:
@@ -392,6 +365,7 @@ def powers_of_ten(axis: Axis) -> None:
 
     matplotlib's own formatter writes formulas, which take it thirty times as long.
     """
+    from matplotlib.ticker import FuncFormatter
 
     def few() -> bool:
         low, high = sorted(axis.get_view_interval())
@@ -422,6 +396,12 @@ def _power(value: float, _: int) -> str:
 
 def without_numbers(axes: Axes) -> None:
     """The grid and the ticks of an x axis whose numbers stand below another panel, as two lines instead of many."""
+    from matplotlib.lines import Line2D
+    from matplotlib.markers import TICKDOWN
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+    from matplotlib.ticker import NullLocator
+
     places = np.asarray(axes.xaxis.get_majorticklocs(), dtype=float)
     low, high = sorted(axes.get_xlim())
     places = places[(places >= low) & (places <= high)]

@@ -76,7 +76,7 @@ def _laid_out(made: Figure, labels: Sequence[_Label]) -> tuple[float, ...]:
     layout: Any = made.get_layout_engine()
     if layout is None:
         return tuple(label.distance for label in labels)
-    from gearlink.cli.views.figures.drawing.style import Panel
+    from gearlink.cli.views.figures.drawing.own import Panel
 
     panels = {axes: [label for label in labels if label.of(axes)] for axes in made.axes if isinstance(axes, Panel)}
     far: dict[_Label, float] = {}

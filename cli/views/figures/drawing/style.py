@@ -9,16 +9,13 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.transforms import Bbox
 
 from gearlink.cli.options import DPI
 from gearlink.cli.views.scenes import scene
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from matplotlib.patches import Patch
     from numpy.typing import NDArray
 
@@ -47,6 +44,8 @@ CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
 def figure(width: float, height: float, title: str) -> Figure:
     """An empty figure in inches with a title; needs no display and no pyplot."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    from gearlink.cli.views.figures.drawing.own import Sheet
 
     made = Sheet(figsize=(width, height), dpi=DPI, layout="constrained")
     FigureCanvasAgg(made)  # the layout's measures of words serve the drawing as well
@@ -263,48 +262,3 @@ def dimension(
         look |= {"rotation": 90, "ha": "right", "va": "center"}
         shift = (-3, 0)
     axes.annotate(words, (middle.real, middle.imag), shift, textcoords="offset points", **look)
-
-
-class Panel(Axes):
-    """A panel of a sheet.
-
-    Fields
-        room : (4,) array or None - what its words need beside it [pixel], left and below negative; None before they
-            are measured, and where nothing needs room
-        on_measuring : what is called when they have been; None: they are measured anew each time
-    """
-
-    room: NDArray[Any] | None = None
-    on_measuring: Callable[[], None] | None = None
-
-    def get_tightbbox(self, *given: Any, **named: Any) -> Bbox | None:
-        """The panel with its words. A layout asks twice, for numbers along an axis may change with its length; those of
-        these sheets hardly do, and measuring takes a third of the time of a sheet."""
-        if self.on_measuring is None:
-            return super().get_tightbbox(*given, **named)
-        box = self.get_position(original=True).transformed(self.get_figure().transSubfigure)  # type: ignore[union-attr]
-        if self.room is None:
-            tight = super().get_tightbbox(*given, **named)
-            if tight is None:
-                return None
-            self.room = np.subtract(tight.extents, box.extents)
-            self.on_measuring()
-        return Bbox.from_extents(*(box.extents + self.room))
-
-    def widen(self, pixels: float) -> bool:
-        """Ask for more room to the left; whether the panel asked for some."""
-        if self.room is None:
-            return False
-        self.room[0] -= pixels
-        return True
-
-
-class Sheet(Figure):
-    """A figure of panels."""
-
-    def add_subplot(self, *places: Any, **look: Any) -> Axes:
-        """A panel, or axes of the projection that is asked for."""
-        if "projection" not in look:
-            look["axes_class"] = Panel
-        made: Axes = super().add_subplot(*places, **look)
-        return made

@@ -122,7 +122,7 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
 
 def _time_row(axes: Axes, functions: Any, name: str) -> None:
     """Numbers in ms on a thin line, their unit at the left of it, where the numbers of the y axis leave room."""
-    from gearlink.cli.views.figures.drawing.panels import RoundNumbers
+    from gearlink.cli.views.figures.drawing.own import RoundNumbers
 
     labelled = bool(axes.get_xlabel())
     down = _BELOW if labelled else _BELOW - 12.0
