@@ -384,7 +384,7 @@ class Design:
             NoSolution
         """
         names = tuple(self.decisive(command))
-        self.prepare(names)
+        self._prepare_as_step(names)
         for name in names:
             self.raw(name)
 
@@ -397,6 +397,12 @@ class Design:
 
     def prepare(self, quantities: Iterable[str], /) -> None:
         """Compute what these quantities share, where that takes less than one after the other; refuse nothing."""
+
+    def _prepare_as_step(self, quantities: Iterable[str]) -> None:
+        """Seek together what some quantities share, as a step of its own where the design has such."""
+        if type(self).prepare is not Design.prepare:
+            with step(f"{type(self).__name__}.prepare"):
+                self.prepare(quantities)
 
     def decisive(self, command: str) -> Iterable[str]:
         """The quantities of a command that may say that no mechanism exists."""
@@ -443,7 +449,7 @@ class Design:
         if findings_only:
             self.require(command)
         else:
-            self.prepare(outline.quantities)
+            self._prepare_as_step(outline.quantities)
             found = [self.quantity(name) for name in outline.quantities]
         shown = tuple(quantity for quantity in found if quantity is not None)
         checks = [check for name in outline.checks for check in self.findings(command, name)]

@@ -30,6 +30,25 @@ def test_results_are_steps_of_the_one_that_asked_for_them(capsys: pytest.Capture
     assert depth["FlatbedPress.table_positions"] == depth["FlatbedPress.check_sync_speed"] == depth["compute"] + 1
 
 
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(
+    ("command", "design", "own"),
+    [
+        ("loads", "loaded_feed", {"ThreeGearLoads.prepare", "LoadsDesign.torque_range"}),
+        ("analyze", "planar_watt", {"PlanarMechanism.prepare", "PlanarMechanism.structure"}),
+    ],
+)
+def test_what_is_sought_together_is_a_step(
+    capsys: pytest.CaptureFixture[str], command: str, design: str, own: set[str]
+) -> None:
+    """Else most of a planar mechanism's time would be that of no result."""
+    assert run([command, f"designs/{design}.yaml", "--profile", "-q"]) == 0
+    steps = {line.split()[-1]: line.split()[:2] for line in capsys.readouterr().err.splitlines()[1:]}
+    assert own <= set(steps)
+    total, alone = map(float, steps["compute"])
+    assert alone < 0.5 * total
+
+
 def test_profile_reports_a_design_that_fails(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*CRANK, "--profile", "--set", "stroke=1e6"]) == 2
     assert "compute" in capsys.readouterr().err
