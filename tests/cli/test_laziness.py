@@ -256,6 +256,8 @@ def test_an_animation_imports_no_matplotlib() -> None:
     assert done.stdout.strip() == "[]"
 
 
+_PARTS = "names meanings bodies drives pins slides slots plays meshes cams size sizes numbers course"
+"""What a planar mechanism is made of; its motion is followed where an extreme is asked for."""
 _EVALUATED = [
     # command, design, quantity, what else the design works out for it
     ("synth dwell", "candy_feed", "crank_teeth", ""),
@@ -294,6 +296,21 @@ _EVALUATED = [
     ("analyze", "two_gear_ring", "gear_ratio", ""),
     ("analyze", "two_gear_ring", "coupler_length", "linkage own_teeth"),  # which say what a centre distance is
     ("analyze", "wide_lever", "rocker_swing", "crank_length linkage own_teeth"),
+    ("analyze", "lift_cam", "start_angle", ""),
+    ("analyze", "lift_cam", "face_width_needed", "sense follower face_width"),
+    ("analyze", "lift_cam", "lift_max", "sense follower motion motion_extremes"),
+    ("analyze", "barrel_cam", "velocity_max", "follower_motion motion_extremes"),
+    ("analyze", "barrel_cam", "max_pressure_angle", "follower_motion drum steepest"),
+    ("analyze", "crank_rocker", "rocker_swing", "linkage dead_centers"),
+    ("analyze", "crank_rocker", "speed_ratio_max", "linkage crank_range speed_turnings"),
+    ("analyze", "planar_quick_return", "grashof", _PARTS),
+    ("analyze", "planar_quick_return", "guide.velocity_ratio_max", f"{_PARTS} _found"),
+    ("analyze", "sheet_press", "natural_frequencies", "own_names chain"),  # without its members' motions
+    ("analyze", "measured_cam", "fit_rms", "points cam residuals"),
+    ("analyze", "measured_cam", "min_curvature_radius", "points cam _sharpest"),
+    ("analyze", "geneva_drive", "wheel_radius", "drive"),
+    ("analyze", "cycloidal_reducer", "output_hole_radius", ""),
+    pytest.param("analyze", "quiet_law", "kappa", "law", marks=pytest.mark.slow),  # the law itself takes its time
 ]
 
 
