@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from gearlink.core.studies.tolerance.budget import Budget, Row
 
 _LINES = ("-", style.DASHED)
+_BAR = 0.025
+"""Height of the bar of a source, that of a page being 1."""
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.BLACK, style.SKY)
 
 
@@ -23,8 +25,10 @@ def draw(design: RegisterDesign) -> Figure:
     """The sheet: along the stretch, as a whole and by source, over the cycle, and what is greatest."""
     along = design.input_angles.size > 1
     panels_of = (_stretch, _along, _cycle, _sources) if along else (_cycle, _sources)
-    made = panels.page(f"{design.spec.name}: register", 0.3 * len(panels_of) + 0.1)
-    grid = made.add_gridspec(len(panels_of), 1)
+    bars = max(0.3, _BAR * len(_signs(design)[0][1].rows))
+    share = 0.3 * (len(panels_of) - 1) + bars + 0.1
+    made = panels.page(f"{design.spec.name}: register", share, large=share > 1.5)
+    grid = made.add_gridspec(len(panels_of), 1, height_ratios=[*[0.3] * (len(panels_of) - 1), bars])
     for place, draw_one in enumerate(panels_of):
         draw_one(made.add_subplot(grid[place]), design)
     return made
@@ -127,7 +131,7 @@ def _sources(axes: Axes, design: RegisterDesign) -> None:
         color = (style.BLUE, style.SKY)[i]
         label = name.strip() or None
         axes.barh(places, [width[row.source] for row in order], height=height, color=color, label=label)
-    axes.set_yticks(range(len(order)), [row.source for row in order])
+    axes.set_yticks(range(len(order)), [row.source for row in order], fontsize=7)
     if len(found) > 1:
         panels.legend_under_heading(axes, "By source", 2)
     else:

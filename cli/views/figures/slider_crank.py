@@ -161,8 +161,9 @@ def _crank_alone(axes: Axes, scene: Scene, ahead: Scene, crank: float) -> None:
     detail.set_aspect("equal")
     detail.set_xlim(center.real - 1.7 * crank, center.real + 1.7 * crank)
     detail.set_ylim(center.imag - 1.7 * crank, center.imag + 1.7 * crank)
-    detail.set_title("crank, magnified [mm]", loc="left", fontsize=7)
+    detail.set_title("crank,\nmagnified [mm]", loc="left", fontsize=7)
     detail.tick_params(labelsize=6, colors=style.GREY)
+    detail.set_yticks([])  # to scale: numbers beside it would stand on the rod
     for text in detail.texts:
         text.set_clip_on(True)
 

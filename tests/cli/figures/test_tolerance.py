@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from sheets import sheet
+from sheets import fits_a_page, meetings, placed_sheet, sheet
 
 from gearlink.cli.views.figures import tolerance
 from gearlink.core.studies.tolerance_study.samples import Course
@@ -88,6 +88,16 @@ def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
     for line in named:
         one = gains[line.get_label()]
         assert np.asarray(line.get_ydata()) == pytest.approx(one.limit * np.abs(one.gain - one.gain[0]), rel=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["ty460_register", "candy_feed_tolerances"])
+def test_a_register_sheet_is_a_page_on_which_every_source_can_be_read(name: str) -> None:
+    """That of a press was 390 mm long."""
+    figure = placed_sheet(name, "register").figure
+    assert fits_a_page(figure)
+    assert figure.get_figwidth() == 8.27
+    assert meetings(figure) == []
 
 
 @pytest.mark.slow
