@@ -117,8 +117,8 @@ def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
             outline=circle(radius, 144),
             repeats=0,
             fill=pale(GREY, 0.1),
-            label="drum",
-            name=f"drum, radius {radius:g} mm",
+            label="cylinder",
+            name=f"impression cylinder, radius {radius:g} mm",
             **shared,  # type: ignore[arg-type]
         ),
         Body(outline=pad, width=5.0, **{**shared, "color": RED}),  # type: ignore[arg-type]
