@@ -10,13 +10,13 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Found, Outline, in_unit, placed
 from gearlink.core.base.errors import MissingSection
-from gearlink.core.base.many_designs import column, hand_out, together
+from gearlink.core.base.many_designs import column, hand_out, sought, together
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way, down, either, up
 from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
-from gearlink.core.machines.disc_cam.cams import Place
+from gearlink.core.machines.disc_cam.cams import FollowerCams, Making, Place
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, maximum_over
 from gearlink.core.parts.cams.checks import flat_undercut_check, hub_checks, undercut_checks
@@ -138,8 +138,6 @@ class DiscCamDesign(OfFollower, Design):
     @cached_property
     def cams(self) -> FollowerCams:
         """Motion, place and cams."""
-        from gearlink.core.machines.disc_cam.cams import FollowerCams
-
         return FollowerCams(self.spec)
 
     @cached_property
@@ -151,8 +149,6 @@ class DiscCamDesign(OfFollower, Design):
     @cached_property
     def making(self) -> Making:
         """Cutter path, radii, errors and servo table."""
-        from gearlink.core.machines.disc_cam.cams import Making
-
         return Making(self.spec, self.cams)
 
     at_once = 256
@@ -160,8 +156,6 @@ class DiscCamDesign(OfFollower, Design):
     @classmethod
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
         """Cams of one motion are sought together."""
-        from gearlink.core.base.many_designs import sought
-
         sought(lambda some: found_together(some, names), designs)
 
     def as_found(self) -> Iterator[Found]:

@@ -43,7 +43,7 @@ from gearlink.core.parts.cams.checks import (
     undercut_checks,
 )
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, LARGER, LIFT_OFF, PRESSURE_ANGLE, VELOCITY_STEP
-from gearlink.core.parts.cams.disc_cam import DiscCam
+from gearlink.core.parts.cams.disc_cam import DiscCam, largest_pressure_angles
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
 from gearlink.core.parts.cams.laws import Law, law
 from gearlink.core.parts.cams.profile import RollerPath, oscillating
@@ -356,8 +356,6 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
 
 
 def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
-    from gearlink.core.parts.cams.disc_cam import largest_pressure_angles
-
     cams, end = design.cams.discs, math.radians(design.motion.law.starts[1])
     for cam, worst in zip(cams, largest_pressure_angles(cams, 0.0, end, 128), strict=True):
         value = math.degrees(abs(worst.value))
@@ -957,7 +955,6 @@ class Closure:
     def worst_unloading(self) -> tuple[Extreme, ...]:
         """Largest torque that lifts each roller [N m], and the cylinder angle [deg] of it."""
         from gearlink.core.numerics.extremes import extremes_over
-        from gearlink.core.numerics.together import kept_last
 
         torques, sense = kept_last(self.inertia_torques), self.lift_sense
 
