@@ -194,18 +194,6 @@ class FollowerCamLoads(_Loads):
     def _lever(self) -> float:
         return 1.0 if self.spec.oscillates else 1e-3
 
-    def cam_speed(self, phi: Reals) -> Reals:
-        """That of the file."""
-        import numpy as np
-
-        return np.full_like(phi, self.speed)
-
-    def cam_degrees(self, phi: Reals) -> Reals:
-        """The cam angle is the input's."""
-        import numpy as np
-
-        return np.degrees(phi)
-
     @property
     def closing_remedy(self) -> str:
         """What presses the follower harder."""

@@ -136,18 +136,6 @@ class GripperLoads(CamLoadsDesign):
         found: Reals = self.machine.reactions(phi).unknowns[name][0]
         return found
 
-    def cam_speed(self, phi: Reals) -> Reals:
-        """That of the cylinder shaft."""
-        import numpy as np
-
-        return np.full_like(phi, self.speed)
-
-    def cam_degrees(self, phi: Reals) -> Reals:
-        """The cam angle is the cylinder's."""
-        import numpy as np
-
-        return np.degrees(phi)
-
     @property
     def lift_off_speed(self) -> float | None:
         """Speed at which a roller leaves its cam [sheets/h]; None without a spring."""

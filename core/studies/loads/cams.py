@@ -115,8 +115,10 @@ class CamLoadsDesign(LoadsDesign):
         raise NotImplementedError
 
     def cam_speed(self, phi: Reals) -> Reals:
-        """Magnitude of the speed of the cam [rad/s]."""
-        raise NotImplementedError
+        """Magnitude of the speed of the cam [rad/s]; the input's where the cam turns with it."""
+        import numpy as np
+
+        return np.full_like(phi, self.speed)
 
     def cam_acceleration(self, phi: Reals) -> Reals:
         """Its derivative by time [rad/s^2]."""
@@ -125,8 +127,10 @@ class CamLoadsDesign(LoadsDesign):
         return np.zeros_like(phi)
 
     def cam_degrees(self, phi: Reals) -> Reals:
-        """Cam angle at input angles [deg]."""
-        raise NotImplementedError
+        """Cam angle at input angles [deg]; the input's where the cam turns with it."""
+        import numpy as np
+
+        return np.degrees(phi)
 
     @property
     def closing_remedy(self) -> str:
