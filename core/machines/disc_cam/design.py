@@ -717,11 +717,11 @@ def _found(designs: Sequence[DiscCamDesign], spec: DiscCamSpec, names: Sequence[
         if spec.closure == "groove":
             _give(many, designs, "cams.outer_wall", *wanted.intersection(("max_radius", "min_radius")))
     _give(many, designs, "cams", "steepest_rise", "steepest_return", "steepest_dwell")
-    _forces(many, designs)
+    found_forces(many, designs)
     _give(many, designs, "making", *(name for name in _MAKING if name in names))
 
 
-def _forces(many: DiscCamDesign, designs: Sequence[DiscCamDesign]) -> None:
+def found_forces(many: DiscCamDesign, designs: Sequence[DiscCamDesign]) -> None:
     """Preload and lift-off of a spring."""
     spring = many.spec.spring
     if spring is None:

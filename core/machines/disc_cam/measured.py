@@ -7,27 +7,30 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.many_designs import column, hand_out, sought, together
 from gearlink.core.base.report import Table, safely_below
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Place
-from gearlink.core.machines.disc_cam.design import DiscCamDesign
+from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign, found_forces
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
+from gearlink.core.numerics.extremes import Extreme, greatest, least_convex_radius, maximum_over, minimum_over
+from gearlink.core.parts.cams.disc_cam import DiscCam
 from gearlink.core.parts.cams.follower_motion import Stroke
 from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.measured_spec import MeasuredCamSpec
-    from gearlink.core.numerics.extremes import Extreme
 
 
 TURN = 2.0 * math.pi
@@ -40,6 +43,7 @@ ROWS = 1440
 _SHORTEST_DWELL = math.radians(10.0)
 _SHORTEST_STROKE = math.radians(3.0)
 _FIT_STEPS = 30
+_ALIKE = ("profile", "harmonics", "speed", "sense", "type", "side", "pivot", "direction", "dwell_tolerance", "loads")
 
 
 class Series(NamedTuple):
@@ -157,15 +161,15 @@ class MeasuredCam:
         value, place, way = self._placed(at)
         there, here = _turned(*place), _turned(at.center, at.first, at.second)
         # Both are continuous over a revolution: the roller stays on one side of the cam, its centre near t in the cam.
-        direction = np.angle(place[0] / self._reference) + cmath.phase(self._reference)
+        direction = np.angle(place[0] / self._reference) + np.angle(self._reference)
         lead = np.angle(at.center * np.exp(-1j * t))
         cam = self.sense * (direction - t - lead), self.sense * (there[0] - here[0]), self.sense * (there[1] - here[1])
         return Follower(value, cam, way)
 
     @cached_property
-    def _reference(self) -> complex:
+    def _reference(self) -> Points:
         """Where the roller's centre stands while the profile's angle 0 touches it [mm]."""
-        return complex(self._placed(self.contact(np.zeros(1)))[1][0][0])
+        return self._placed(self.contact(np.zeros(1)))[1][0]
 
     def _placed(self, at: Contact) -> tuple[tuple[Reals, Reals, Reals], list[Points], Points]:
         """Coordinate of the follower, centre of the roller with derivatives, and direction of its way."""
@@ -239,8 +243,13 @@ class MeasuredCam:
         """
         grid, angle = self._grid
         last = math.inf
-        turned = angle[0] + np.mod(phi - angle[0], TURN)
-        t = np.asarray(np.interp(turned, angle, grid), dtype=np.float64)
+        first = angle[..., :1] if angle.ndim > 1 else angle[0]
+        turned = first + np.mod(phi - first, TURN)
+        t = (
+            np.array([np.interp(turned[k], row, grid) for k, row in enumerate(angle)])
+            if angle.ndim > 1
+            else (np.asarray(np.interp(turned, angle, grid), dtype=np.float64))
+        )
         for _ in range(_STEPS):
             found = self.follower(t)
             off = found.cam_angle[0] - turned
@@ -258,7 +267,11 @@ class MeasuredCam:
 
     def motion(self, phi: Reals) -> tuple[Reals, Reals, Reals]:
         """Coordinate of the follower and its derivatives by the cam angle [rad or mm]."""
-        found = self.follower(self.at_cam_angle(phi))
+        return self.over_profile(self.at_cam_angle(phi))
+
+    def over_profile(self, t: Reals) -> tuple[Reals, Reals, Reals]:
+        """The same at places t on the profile."""
+        found = self.follower(t)
         value, first, second = found.value
         speed = first / found.cam_angle[1]
         return value, speed, (second - speed * found.cam_angle[2]) / found.cam_angle[1] ** 2
@@ -517,6 +530,38 @@ def _round(phases: list[MeasuredPhase]) -> list[tuple[MeasuredPhase, MeasuredPha
     return list(zip(phases, [*phases[1:], *phases[:1]], strict=True))
 
 
+class OverProfile:
+    """That lift over the places t on the profile instead of the cam angle: its extremes need no Newton's steps."""
+
+    joints: tuple[float, ...] = ()
+
+    def __init__(self, cam: MeasuredCam, least: Any) -> None:
+        self.cam, self.least = cam, least
+
+    def evaluate(self, t: Reals, order: int = 2) -> list[Reals]:
+        """Lift and its derivatives by the cam angle [mm or rad]."""
+        value, *rates = self.cam.over_profile(t)
+        sense = self.cam.outward_sense
+        return [self.cam.outward(value) - self.least, *(sense * rate for rate in rates)][: order + 1]
+
+
+class MeasuredClosing(Closing):
+    """Forces along the lift of a file without forces of its own over the cam angle."""
+
+    def __init__(self, design: MeasuredCamDesign) -> None:
+        super().__init__(design.spec, SimpleNamespace(motion=OverProfile(design.cam, design.least)))  # type: ignore[arg-type]
+        self.design = design
+
+    def _most(self, course: Callable[[Reals], Reals]) -> Extreme:
+        return maximum_over(course, samples=self.design.samples)
+
+    @property
+    def unloading(self) -> Extreme | None:
+        """As of any cam, at its cam angle."""
+        found = super().unloading
+        return None if found is None else found._replace(place=self.design.cam_angle(found.place))
+
+
 class MeasuredCams(FollowerCams):
     """Motion, place and cam of a measured profile."""
 
@@ -524,14 +569,44 @@ class MeasuredCams(FollowerCams):
 
     def __init__(self, design: MeasuredCamDesign) -> None:
         self.design, self.spec, self.sense = design, design.spec, design.spec.sense
-        self.follower = design.spec.disc_follower
+
+    @cached_property
+    def follower(self) -> Any:
+        """The follower as that of a disc cam."""
+        return self.spec.disc_follower
 
     @cached_property
     def motion(self) -> Any:
         """Lift over the cam angle [mm or rad]."""
-        design = self.design
-        least = min(design.cam.outward(value) for value in design.ends)
-        return MeasuredMotion(design.cam, least, design.phases)
+        return MeasuredMotion(self.design.cam, self.design.least, self.design.phases)
+
+    @cached_property
+    def main(self) -> DiscCam:
+        """The cam of the roller; its extremes are sought over the profile."""
+        found, design = super().main, self.design
+        sharp, (near, far) = design.sharpest, design.reach
+        known = {"max_radius": far - found.roller_radius, "min_radius": near - found.roller_radius}
+        known["star_shaped"] = design.star_shaped
+        if math.isfinite(sharp.value):
+            keep(found, most_convex=Extreme(1.0 / sharp.value, design.cam_angle(sharp.place)))
+        keep(found, **known, max_pressure_angle=design.steepest._replace(place=design.max_pressure_angle_at))
+        return found
+
+    def _most_in_strokes(self, sense: int) -> float | None:
+        """Over the stretches of the profile that the strokes touch."""
+        cam, found = self.design.cam, []
+        for stroke in MeasuredMotion(cam, 0.0, self.design.phases).strokes:
+            if stroke.sense == sense:
+                t = cam.at_cam_angle(np.array([stroke.start, stroke.end]))
+                start, length = t[..., :1], np.mod(-cam.sense * (t[..., 1:] - t[..., :1]), TURN)
+                length = np.where(length <= 0.0, TURN, length)
+                samples = max(33, math.ceil(self.design.samples * (stroke.end - stroke.start) / TURN))
+
+                def course(share: Reals, start: Reals = start, length: Reals = length) -> Reals:
+                    return cam.pressure_angle(start - cam.sense * length * share)
+
+                found.append(maximum_over(course, 0.0, 1.0, samples=samples).value)
+        return greatest(found) if found else None
 
     @cached_property
     def place(self) -> Place:
@@ -562,12 +637,26 @@ class MeasuredCamDesign(DiscCamDesign):
     extra_tables = ("profile_fit", "main_cam", "radius")
     extreme_names = ()
 
-    at_once = Design.at_once
     ways = Design.ways
 
     @classmethod
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
-        """Each is computed by itself."""
+        """Followers on one profile are sought together; the strokes are those of the first."""
+        del names
+
+        def find(some: Sequence[Any]) -> None:
+            many, first = cls(together([design.spec for design in some], _ALIKE)), some[0]
+            series = first.cam.series
+            for design in (many, *some):
+                keep(design, cam=design.cam_of(series), residuals=first.residuals)
+            hand_out(many, some, "span", "sharpest", "steepest", "rates", "reach", "star_shaped")
+            keep(many, least=column([design.least for design in some]))
+            for design in (many, *some[1:]):
+                keep(design, phases=first.phases)
+            hand_out(many.cams, [one.cams for one in some], "steepest_rise", "steepest_return", "steepest_dwell")
+            found_forces(many, some)
+
+        sought(find, designs)
 
     @property
     def law_definitions(self) -> Mapping[str, Any]:
@@ -592,9 +681,11 @@ class MeasuredCamDesign(DiscCamDesign):
     @cached_property
     def cam(self) -> MeasuredCam:
         """Series and follower."""
+        return self.cam_of(Series.fitted(*self.points, self.spec.order))
 
+    def cam_of(self, series: Series) -> MeasuredCam:
+        """The follower of the file on a profile."""
         spec, follower = self.spec, self.spec.follower
-        series = Series.fitted(*self.points, spec.order)
         if follower.type == "oscillating":
             pivot = complex(*follower.pivot)
             return MeasuredCam(series, spec.roller_radius, spec.sense, pivot, follower.arm, follower.side)
@@ -625,25 +716,25 @@ class MeasuredCamDesign(DiscCamDesign):
         """Harmonics of the series."""
         return self.spec.order
 
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Minimum and maximum coordinate of the follower [rad or mm]."""
-        return self._range
-
     @cached_property
-    def _range(self) -> tuple[float, float]:
+    def span(self) -> tuple[float, float]:
         """Minimum and maximum coordinate of the follower [rad or mm]."""
-        from gearlink.core.numerics.extremes import maximum_over, minimum_over
-
         self.require_runs()
 
         def value(t: Reals) -> Reals:
             return self.cam.follower(t).value[0]
 
-        return minimum_over(value, samples=self._samples).value, maximum_over(value, samples=self._samples).value
+        return minimum_over(value, samples=self.samples).value, maximum_over(value, samples=self.samples).value
+
+    @cached_property
+    def least(self) -> float:
+        """Minimum coordinate outward, that of lift 0 [rad or mm]."""
+        found: float = min(self.cam.outward(value) for value in self.span)
+        return found
 
     @property
-    def _samples(self) -> int:
+    def samples(self) -> int:
+        """Places of a revolution that show each harmonic."""
         return 16 * self.spec.order + 512
 
     def require_runs(self) -> None:
@@ -653,64 +744,87 @@ class MeasuredCamDesign(DiscCamDesign):
     @property
     def swing(self) -> float | None:
         """Swing of an oscillating follower [rad]."""
-        return self._range[1] - self._range[0] if self._oscillates else None
+        return self.span[1] - self.span[0] if self._oscillates else None
 
     @property
     def stroke(self) -> float | None:
         """Stroke of a translating follower [mm]."""
-        return None if self._oscillates else self._range[1] - self._range[0]
+        return None if self._oscillates else self.span[1] - self.span[0]
 
     @cached_property
-    def _sharpest(self) -> Extreme:
-        from gearlink.core.numerics.extremes import least_convex_radius
-
+    def sharpest(self) -> Extreme:
+        """Minimum convex radius of the pitch curve [mm] and its place on the profile [rad]."""
         self.require_runs()
-        return least_convex_radius(self.cam.curvature, samples=self._samples)
+        return least_convex_radius(self.cam.curvature, samples=self.samples)
 
     @cached_property
-    def _steepest(self) -> Extreme:
-        from gearlink.core.numerics.extremes import maximum_over
-
+    def steepest(self) -> Extreme:
+        """Maximum pressure angle [rad] and its place on the profile [rad]."""
         self.require_runs()
-        return maximum_over(self.cam.pressure_angle, samples=self._samples)
+        return maximum_over(self.cam.pressure_angle, samples=self.samples)
+
+    @cached_property
+    def rates(self) -> tuple[float, float]:
+        """Maximum magnitude of velocity and acceleration by the cam angle [mm or rad]."""
+        self.require_runs()
+        first, second = (
+            maximum_over(lambda t, k=k: np.abs(self.cam.over_profile(t)[k]), samples=self.samples).value  # type: ignore[misc]
+            for k in (1, 2)
+        )
+        return first, second
+
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        """Minimum and maximum distance of the roller's centre from the cam axis [mm]."""
+
+        def distance(t: Reals) -> Reals:
+            return np.abs(self.cam.contact(t).center)
+
+        return minimum_over(distance, samples=self.samples).value, maximum_over(distance, samples=self.samples).value
+
+    @cached_property
+    def star_shaped(self) -> bool:
+        """Whether the series has a radius at every angle, as the points have."""
+        return bool(np.all(self.cam.series.at(np.linspace(0.0, TURN, self.samples), 0)[0] > 0.0))
+
+    @cached_property
+    def closing(self) -> Closing:
+        """What holds the follower on the cam."""
+        return super().closing if self.spec.loads is not None else MeasuredClosing(self)
 
     @property
     def min_curvature_radius(self) -> float | None:
         """Minimum convex radius of the pitch curve [mm]; None where it is convex nowhere."""
-        return self._sharpest.value if math.isfinite(self._sharpest.value) else None
+        return self.sharpest.value if math.isfinite(self.sharpest.value) else None
 
     @property
     def min_curvature_radius_at(self) -> float:
         """Cam angle of it [rad]."""
-        return self._cam_angle(self._sharpest.place)
+        return self.cam_angle(self.sharpest.place)
 
     @property
     def max_pressure_angle(self) -> float:
         """Maximum pressure angle [rad]."""
-        return self._steepest.value
+        return self.steepest.value
 
     @property
     def max_pressure_angle_at(self) -> float:
         """Cam angle of it [rad]."""
-        return self._cam_angle(self._steepest.place)
+        return self.cam_angle(self.steepest.place)
 
-    def _cam_angle(self, t: float) -> float:
+    def cam_angle(self, t: float) -> float:
+        """Cam angle at which a place on the profile is touched [rad]."""
         return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], _TURN))
 
     @property
     def follower_velocity_max(self) -> float | None:
         """Maximum velocity of the follower [mm/s or rad/s]."""
-        return None if self.speed is None else self.speed * self._greatest(1)
+        return None if self.speed is None else self.speed * self.rates[0]
 
     @property
     def follower_acceleration_max(self) -> float | None:
         """Maximum acceleration of it [mm/s^2 or rad/s^2]."""
-        return None if self.speed is None else self.speed**2 * self._greatest(2)
-
-    def _greatest(self, order: int) -> float:
-        from gearlink.core.numerics.extremes import maximum_over
-
-        return maximum_over(lambda phi: abs(self.cam.motion(phi)[order]), samples=self._samples).value
+        return None if self.speed is None else self.speed**2 * self.rates[1]
 
     @cached_property
     def phases(self) -> list[MeasuredPhase]:
@@ -730,7 +844,7 @@ class MeasuredCamDesign(DiscCamDesign):
             columns = {"cam_angle": (degrees, "deg"), "follower_angle": (np.degrees(value), "deg")}
             units = ("rad/rad", "rad/rad^2")
         else:
-            columns = {"cam_angle": (degrees, "deg"), "lift": (value - self._range[0], "mm")}
+            columns = {"cam_angle": (degrees, "deg"), "lift": (value - self.span[0], "mm")}
             units = ("mm/rad", "mm/rad^2")
         t, left = self.points[0], self.residuals
         residual = np.interp(np.mod(self.cam.at_cam_angle(phi), _TURN), np.mod(t, _TURN), left, period=_TURN)

@@ -201,7 +201,7 @@ def test_loads_of_a_measured_cam_by_virtual_work() -> None:
     loads = factory.design("loaded_measured_cam", command="loads", follower__mass=2.0)
     phi, omega = np.radians([75.0, 100.0, 230.0, 280.0]), 4.0 * math.pi
     value, speed, acceleration = loads.design.cam.motion(phi)
-    lift = value - loads.design.ends[0]
+    lift = value - loads.design.span[0]
     along = 60.0 + 4.0 * lift + 2e-3 * acceleration * omega**2
     assert loads.machine.torque(phi) == pytest.approx(1e-3 * along * speed, rel=1e-9, abs=1e-12)
     angle = np.abs(loads.design.cams.main.pressure_angle(phi))
