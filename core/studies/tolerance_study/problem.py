@@ -14,7 +14,7 @@ from gearlink.core.base.design import Design
 from gearlink.core.base.design_axis import Evaluated
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.base.spec_paths import part_at
+from gearlink.core.base.spec_paths import number_at, numbers_at, part_at, unit_at
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.studies.explore.base import Base, Refused
 from gearlink.core.studies.explore.requirements import (
@@ -71,6 +71,8 @@ class Problem:
             register: Any = self.base.kind.design("register", self.base.spec())
             register.require_parts(self.section)
         found: tuple[Scatter, ...] = ()
+        for key in counted:
+            self._found_once(key)
         if counted or not given:
             found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
         found = tuple(one for one in found if one.kind != "gear")
@@ -79,6 +81,17 @@ class Problem:
         for one in found:
             self._possible(one)
         return found
+
+    def _found_once(self, key: str) -> None:
+        """Refuse a requirement: samples keep what was found for it."""
+        spec = self.base.spec()
+        if number_at(self.asked.spec(), key) is None or number_at(spec, key) is not None:
+            return
+        found = [path for one in self.asked.design().as_found() for path in numbers_at(spec, one.path)]
+        sizes = [path for path in found if isinstance(number_at(spec, path), float) and unit_at(spec, path)]
+        sizes = [path for path in sizes if not path.startswith(("limits", "dwell_"))]
+        message = f"{key} is a requirement: samples keep what was found for it\nname one of {', '.join(sizes)}"
+        raise no("GL170", message, "sources", key)
 
     def _possible(self, one: Scatter) -> None:
         """Refuse a measured size that the key cannot have."""

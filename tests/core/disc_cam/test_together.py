@@ -179,3 +179,10 @@ def test_the_lift_of_a_rocker_has_no_class_and_that_of_a_slide_has() -> None:
         "N/mm",
         "N m/rad",
     ]
+
+
+def test_a_requirement_of_a_size_is_no_source_and_what_was_found_is_named() -> None:
+    section = {"sources": {"cam.size.pressure_angle": {"plus_minus": 1}}}
+    data = _file("spring", cam={"size": {"pressure_angle": 25}}, tolerance=section)
+    with pytest.raises(WrongStudy, match=r"name one of spring\.preload, cam\.prime_radius"):
+        _ = problem(factory.design(data).spec).sources

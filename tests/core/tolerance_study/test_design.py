@@ -198,6 +198,7 @@ def test_sobol_indices_of_a_linear_quantity_are_its_shares() -> None:
 
 BAD: dict[str, tuple[dict[str, Any], str]] = {
     "no such key": ({"sources": {"links.rank": {"plus_minus": 0.1}}}, "GL170"),
+    "what is found once": ({"sources": {"dwell.angle": {"plus_minus": 0.1}}}, "GL170"),
     "whole number": ({"sources": {"gears.crank": {"plus_minus": 0.1}}}, "GL170"),
     "no such pin": ({"sources": {"pins.Z": {"clearance": [0.0, 0.1]}}}, "GL170"),
     "interference": ({"sources": {"pins.A": {"fit": "H7/s6", "size": 20.0}}}, "GL171"),
