@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.numerics.together import Search, together
 
 _STEPS = 200
+_UNIT = np.linspace(0.0, 1.0, 17)
 _NEWTON_STEPS = 60
 _FAINTEST = 1e-300  # as good as no step: subnormal numbers have no full set of digits to settle in
 _RESTS = 1e-9  # of x, the last Newton step; the error that it leaves is its square
@@ -58,6 +61,60 @@ def bracketed_roots(
             least = np.minimum(0.5, reach / np.abs(b - a))
             share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))
     return np.where(valid, best, np.nan)
+
+
+def root_between(f: Callable[[Reals], Reals], low: float, high: float, *, tolerance: float = 0.0) -> float:
+    """Root of a function of arrays between two places where its signs differ: each round looks at 17 of them.
+
+    Parameters
+        f : function of a float64 array, returning one like it
+        low, high : float - f has opposite signs there; where it has several roots, the first of those that are seen
+        tolerance : float - absolute tolerance in x besides two ulp of x
+    Returns
+        x : float
+    Notes
+        Where a call costs more than its places, a few serve for the dozen of `roots.bracketed_root`: after a round the
+        next one looks round the root of the inverse polynomial through five places, four times as far as that
+        through four lies from it. Where the root is not there, the interval between two places is looked at anew.
+    Example
+        >>> root_between(lambda x: x * x - 2.0, 0.0, 2.0)
+        1.4142135623730951
+    """
+    inside, missed = (low, high), False
+    for _ in range(_STEPS):
+        x = low + (high - low) * _UNIT
+        values = f(x)
+        changes = ((values[:-1] > 0.0) != (values[1:] > 0.0)).nonzero()[0]
+        if not changes.size:
+            if (low, high) == inside:
+                break
+            (low, high), missed = inside, True
+            continue
+        i = int(changes[0])
+        low, high = inside = float(x[i]), float(x[i + 1])
+        if high - low <= 2.0 * np.spacing(abs(high)) + tolerance:
+            return low if abs(values[i]) < abs(values[i + 1]) else high
+        first = min(max(i - 2, 0), _UNIT.size - 5)
+        near = slice(first, first + 5)
+        guess, other = _inverse(values[near], x[near])
+        reach = max(4.0 * abs(guess - other), 0.5 * tolerance, float(np.spacing(abs(high))))
+        if not missed and reach < 0.5 * (high - low):  # not a number: no
+            low, high = max(low, guess - reach), min(high, guess + reach)
+        missed = False
+    raise NoSolution(f"no sign change between {inside[0]!r} and {inside[1]!r}")
+
+
+def _inverse(values: Reals, places: Reals) -> tuple[float, float]:
+    """Where the polynomials of the places by their values, through all five and through the first four, have 0."""
+    v, x = values.tolist(), places.tolist()
+    four = math.nan
+    for width in range(1, 5):
+        for k in range(5 - width):
+            apart = v[k] - v[k + width]
+            x[k] = (v[k] * x[k + 1] - v[k + width] * x[k]) / apart if apart else math.nan
+        if width == 3:
+            four = x[0]
+    return x[0], four
 
 
 def newton_roots(

@@ -26,6 +26,7 @@ from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.roots_sweep import root_between
 from gearlink.core.numerics.together import kept_last
 
 
@@ -192,6 +193,9 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
     if not within.size:
         return 0.0
     (low, high), ends = (rows[[within[0], within[0] - 1]].tolist() for rows in (t, room))
+    if not noise:
+        return root_between(clearance, low, high, tolerance=_KNOWN)
+    # of the places that rounding takes for roots the last one is found as before: a curvature beside it has no bound
     known = _KNOWN + noise / low
     return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known, ends=ends)
 

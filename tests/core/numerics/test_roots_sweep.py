@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.numerics.roots_sweep import bracketed_roots
+from gearlink.core.numerics.roots_sweep import bracketed_roots, root_between
 
 RNG = np.random.default_rng(3)
 
@@ -61,3 +64,36 @@ def test_values_at_the_ends_need_not_be_computed_again() -> None:
     found = bracketed_roots(f, np.zeros(1), np.full(1, 2.0), ends=(np.full(1, -2.0), np.full(1, 2.0)))
     assert found.tolist() == [bracketed_root(lambda x: x * x - 2.0, 0.0, 2.0)]
     assert not {0.0, 2.0} & set(asked)
+
+
+SHAPES = {
+    "smooth": lambda x: np.exp(x) - 1.0,
+    "steep": lambda x: np.tanh(40.0 * x),
+    "flat": lambda x: x**3 + 0.001 * x,
+    "a jump": lambda x: np.where(x > 0.0, 1.0, -2.0),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_root_between_two_places_is_found_in_a_few_calls(shape: str) -> None:
+    """It is 0.3, moved there, wherever the bracket ends; a jump takes as many calls as there are sixteenths to the last
+    bit, and where rounding has the sign a few more than elsewhere."""
+    draw = np.random.default_rng(5)
+    counts = []
+    for low, high in zip(-draw.random(50), draw.random(50), strict=True):
+        calls = []
+
+        def moved(x: Any, calls: list[int] = calls) -> Any:
+            calls.append(1)
+            return SHAPES[shape](x - 0.3)
+
+        found = root_between(moved, 0.3 + low, 0.3 + high)
+        assert abs(found - 0.3) <= 4.0 * np.spacing(0.3)
+        counts.append(len(calls))
+    assert np.mean(counts) <= (14 if shape == "a jump" else 8)
+    assert max(counts) <= 20
+
+
+def test_a_root_between_places_of_one_sign_is_refused() -> None:
+    with pytest.raises(NoSolution, match="no sign change between"):
+        root_between(lambda x: x * x + 1.0, -1.0, 1.0)
