@@ -132,8 +132,12 @@ class SixPhaseLaw:
 
     def phase(self, degrees: Any) -> NDArray[np.intp]:
         """Index of the phase at angles in degrees; a joint belongs to the phase that starts there."""
-        index: NDArray[np.intp] = np.searchsorted(self.starts, np.fmod(degrees, 360.0), side="right") - 1
+        index: NDArray[np.intp] = self._edges.searchsorted(np.fmod(degrees, 360.0), side="right") - 1
         return index
+
+    @cached_property
+    def _edges(self) -> Reals:
+        return np.array(self.starts)
 
     def evaluate(self, degrees: Any, order: int = 2) -> tuple[Reals, ...]:
         """Swing and its derivatives by theta.
@@ -172,17 +176,17 @@ class SixPhaseLaw:
         return {}
 
     def _evaluate(self, degrees: Any, order: int) -> tuple[Reals, ...]:
-        theta = np.fmod(np.atleast_1d(np.asarray(degrees, dtype=np.float64)), 360.0)
-        phase = self.phase(theta)
-        out = tuple(np.zeros_like(theta) for _ in range(order + 1))
-        for index in np.flatnonzero(np.bincount(phase.ravel(), minlength=1)).tolist():
-            if index == _NEAR_DWELL:  # it rests at zero
-                continue
-            inside = phase == index
-            local = (theta[inside] - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
-            for target, values in zip(out, self.in_phase(index, local, order), strict=True):
-                target[inside] = values
-        return out
+        given = np.atleast_1d(np.asarray(degrees, dtype=np.float64))
+        theta = np.fmod(given.ravel(), 360.0)
+        phase = self._edges.searchsorted(theta, side="right") - 1
+        out = np.zeros((order + 1, theta.size))
+        for index in range(_NEAR_DWELL):  # in which it rests at zero
+            rows = (phase == index).nonzero()[0]
+            if rows.size:
+                local = (theta[rows] - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
+                for target, values in zip(out, self.in_phase(index, local, order), strict=True):
+                    target[rows] = values
+        return tuple(out.reshape(order + 1, *given.shape))
 
     def in_phase(self, index: int, u: Reals, order: int) -> tuple[Reals, ...]:
         """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included)."""
