@@ -434,10 +434,22 @@ _WORTH_PROCESSES, _SHARE = 48, 6
 
 def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, counted: Iterable[int]) -> None:
     """Write the pictures; `counted` counts them and may show how far the work is."""
-    palette = _with_white(raster.picture(0).quantize(_COLORS, method=Image.Quantize.MEDIANCUT))
+    palette = _with_white(_with_failure(raster).quantize(_COLORS, method=Image.Quantize.MEDIANCUT))
     made = _frames(raster, palette, counted, count)
     first = next(made)
     first.save(stream, "GIF", save_all=True, append_images=made, duration=durations(count, fps), loop=0, optimize=False)
+
+
+def _with_failure(raster: Raster) -> Picture:
+    """The first picture, and beside it the first in which a check fails, whose red it may not have."""
+    first, stage = raster.picture(0), raster.stage
+    fails = next((i for i in range(1, stage.count) if stage.framed(i)), 0)
+    if not fails or stage.framed(0):
+        return first
+    made = Image.new("RGB", (2 * first.width, first.height))
+    made.paste(first, (0, 0))
+    made.paste(raster.picture(fails), (first.width, 0))
+    return made
 
 
 def _with_white(picture: Picture) -> Picture:

@@ -329,6 +329,20 @@ def test_every_design_becomes_a_gif(gearlink: Any, tmp_path: Path, path: Path) -
 
 
 @pytest.mark.slow
+def test_what_fails_in_a_later_picture_is_red_in_a_gif(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    """Colours were those of the first picture: of a cam that passes at cam angle 0 the red came out as orange."""
+    line = ("animate", designs / "lift_cam.yaml", "--set", "limits.pressure_angle=20", "--seconds", 1, "--fps", 12)
+    assert gearlink(*line, "--out", tmp_path).status == 0
+    with Image.open(tmp_path / "lift-cam-motion.gif") as found:
+        corners = []
+        for i in range(found.n_frames):
+            found.seek(i)
+            corners.append(found.convert("RGB").getpixel((1, 1)))
+    assert corners[0] == (255, 255, 255)
+    assert set(corners[1:]) == {(255, 255, 255), (208, 0, 0)}
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["gif", "html"])
 def test_the_same_design_gives_the_same_bytes(gearlink: Any, designs: Path, tmp_path: Path, form: str) -> None:
     for folder in ("a", "b"):
