@@ -357,8 +357,33 @@ def whole_gears(axes: Axes, mesh: Mesh) -> None:
     panels.heading(axes, f"{mesh.name} mesh: {names}" if mesh.name else names.capitalize())
     scene_axes.draw(axes, scene)
     _axis_distance(axes, pair)
+    _small_alone(axes, scene, mesh)
     axes.margins(0.08)
     axes.autoscale_view()
+
+
+_SMALL = 1.0 / 15.0
+"""Of the width of a pair: a smaller gear is drawn a second time, magnified."""
+
+
+def _small_alone(axes: Axes, scene: Scene, mesh: Mesh) -> None:
+    """A gear that is a dot beside its mate, magnified in the free corner above it."""
+    pair, tips = mesh.pair, mesh.pair.tip_radius
+    small = 0 if abs(tips[0]) < abs(tips[1]) else 1
+    if pair.center_distance < 0.0 or 2.0 * tips[small] > _SMALL * (sum(tips) + pair.center_distance):
+        return
+    detail = axes.inset_axes((0.73 * small + 0.01, 0.6, 0.25, 0.3), zorder=9)
+    scene_axes.draw(detail, scene)
+    detail.set_aspect("equal")
+    reach, x = 1.3 * tips[small], small * pair.center_distance
+    detail.set_xlim(x - reach, x + reach)
+    detail.set_ylim(-reach, reach)
+    detail.set_xticks([])
+    detail.set_yticks([])
+    detail.set_title("magnified", loc="left", fontsize=7)
+    for text in detail.texts:
+        text.set_clip_on(True)
+        text.set_visible(abs(getattr(text, "xy", text.get_position())[0] - x) < reach)
 
 
 def _axis_distance(axes: Axes, pair: GearPair) -> None:

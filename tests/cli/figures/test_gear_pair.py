@@ -187,3 +187,14 @@ def test_the_nearest_limits_are_named_within_the_plot() -> None:
     boxes = [text.get_window_extent(renderer) for text in axes.texts]
     assert boxes
     assert all(plot.x0 <= box.x0 and box.x1 <= plot.x1 for box in boxes)
+
+
+def test_a_gear_that_is_a_dot_beside_its_mate_is_magnified():
+    """Of 12 teeth against 300 nothing was to be seen but the pivot."""
+    made, figure = sheet("gear_pair", "gear", teeth=[12, 300], load=None)
+    (detail,) = figure.axes[0].child_axes
+    low, high = detail.get_xlim()
+    tip = made.gear_pair.tip_radius[0]
+    assert low < -tip < tip < high < 3.0 * tip
+    assert any(np.abs(points(patch)).max() == pytest.approx(tip, rel=1e-6) for patch in detail.patches)
+    assert not sheet("gear_pair", "gear").figure.axes[0].child_axes
