@@ -54,6 +54,11 @@ def test_every_page_is_in_the_navigation() -> None:
 def test_drawings_name_points_that_are_there(page: str, block: str) -> None:
     drawing = drawings.Drawing.read(block)
     letters = {letter for name, _ in drawing.sizes for letter in re.findall(r"[A-Z]\d*", name)}
+    assert all(
+        drawings.size_of(drawing.design, name.split()[2]) > 0.0
+        for name, _ in drawing.sizes
+        if name.startswith("circle ")
+    )
     assert letters <= set(drawings.places(drawings.scene_of(drawing.design, drawing.fraction))), page
 
 

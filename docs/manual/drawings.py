@@ -6,9 +6,11 @@ A page of a kind asks for it by a block
     designs/standing_feed.yaml at 0.75
     AB: l1 crank
     angle AB: phi1
+    circle A crank_length: path of B
     ```
 
-whose lines name a size between two lettered points, or an angle from the x axis.
+whose lines name a size between two lettered points, an angle from the x axis, or a circle about a point with a quantity
+or a key of the design as its radius.
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ _LETTERS = re.compile(r"[A-Z]\d*")
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """What a block asks for: the file, the share of its loop, and a text for each size or angle."""
+    """What a block asks for: the file, the share of its loop, and a text for each size, angle or circle."""
 
     design: str
     fraction: float
@@ -89,6 +91,10 @@ class Drawing:
         _frame(axes)
         size = _size(axes)
         for name, text in self.sizes:
+            if name.startswith("circle "):
+                _, letter, radius = name.split()
+                _circle(axes, points[letter], size_of(self.design, radius), text)
+                continue
             angle = name.startswith("angle ")
             letters = _LETTERS.findall(name.removeprefix("angle "))
             unknown = [letter for letter in letters if letter not in points]
@@ -100,13 +106,32 @@ class Drawing:
 
 def scene_of(design: str, fraction: float) -> Scene:
     """The scene of a design file at a fraction of its loop."""
+    from gearlink.cli.views.scenes.linkages import build
+
+    return build(_design(design), np.array([fraction]))
+
+
+def size_of(design: str, name: str) -> float:
+    """A quantity or a key of a design [mm].
+
+    Example
+        >>> size_of("designs/cycloidal_reducer.yaml", "pin_circle_radius")
+        60.0
+    """
+    from gearlink.core.base.spec_paths import value_at
+
+    made = _design(design)
+    found = made.quantity(name).value if name in made.quantity_names() else value_at(made.spec, name)
+    return float(found)
+
+
+def _design(design: str) -> Any:
     from gearlink.cli.evaluate import open_design, read_spec, whole_design
     from gearlink.cli.options import Options
-    from gearlink.cli.views.scenes.linkages import build
 
     source = str(ROOT / design)
     loaded, kind = open_design(source, Options())
-    return build(whole_design(kind, read_spec(loaded, kind, source)), np.array([fraction]))
+    return whole_design(kind, read_spec(loaded, kind, source))
 
 
 def places(scene: Scene) -> dict[str, complex]:
@@ -152,6 +177,15 @@ def _angle(axes: Axes, start: complex, end: complex, text: str, size: float) -> 
     axes.plot(arc.real, arc.imag, color=_RED, linewidth=1.1, zorder=9)
     axes.plot([start.real, start.real + 1.25 * radius], [start.imag] * 2, color=_GREY, linewidth=0.8, dashes=(4, 3))
     at = start + 1.3 * radius * np.exp(0.5j * turn)
+    axes.text(at.real, at.imag, text, ha="center", va="center", fontsize=9, color=_RED, zorder=10, bbox=_paper())
+
+
+def _circle(axes: Axes, center: complex, radius: float, text: str) -> None:
+    """A dashed circle with its text below on the left, where drawings have least."""
+    turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 181))
+    rim = center + radius * turn
+    axes.plot(rim.real, rim.imag, color=_RED, linewidth=0.9, dashes=(5, 3), zorder=8)
+    at = center + radius * np.exp(1.25j * np.pi)
     axes.text(at.real, at.imag, text, ha="center", va="center", fontsize=9, color=_RED, zorder=10, bbox=_paper())
 
 
