@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.wording import short, within
 from gearlink.core.parts.gears.data import GearData
-from gearlink.core.parts.gears.measures.allowances import js7, thickness_allowances
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
 from gearlink.core.parts.gears.rating.load import Factors, Load, Material, Required, torque_of
@@ -231,6 +230,8 @@ def allowances_of(given: AllowanceSpec | None, pair: GearPair, *, rack: bool = F
         return None
     if given.upper is not None and given.lower is not None:
         return (given.upper[0], given.lower[0]), (given.upper[1], given.lower[1])
+    from gearlink.core.parts.gears.measures.allowances import thickness_allowances
+
     series = given.series if isinstance(given.series, list) else [given.series, given.series]
     radii = (pair.reference_radius[0],) * 2 if rack else pair.reference_radius
     with at_key("allowances.series"):
@@ -244,6 +245,8 @@ def _distance_allowance(spec: GearPairSpec | PairKeys, pair: GearPair, *, rack: 
     given = spec.center_distance_allowance
     if not isinstance(given, str):
         return given
+    from gearlink.core.parts.gears.measures.allowances import js7
+
     with at_key("center_distance_allowance"):
         on_rack = pair.reference_radius[0] + pair.profile_shift[0] * pair.module
         return js7(on_rack if rack else abs(pair.center_distance))
