@@ -15,7 +15,7 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
-from gearlink.core.base.report import Check, Status, Table, safely_below
+from gearlink.core.base.report import Check, Status, Table, safely_below, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.courses import turned
@@ -477,7 +477,10 @@ class GenevaDrive(RealSpeed, Design):
     def lip_thickness(self) -> float | None:
         """Metal between the locking arc and a slot [mm]: r - b/2 - (locking_radius + locking_clearance)."""
         locking = self.spec.locking_radius
-        return None if locking is None else self.crank_radius - self._half_slot - locking - self.spec.locking_clearance
+        if locking is None:
+            return None
+        lip = self.crank_radius - self._half_slot - locking - self.spec.locking_clearance
+        return without_noise(lip, self.crank_radius)
 
     # Play
 
@@ -684,7 +687,10 @@ class GenevaDrive(RealSpeed, Design):
             status: Status = "fail" if lip <= 0.0 else "pass"
             what, overlap = "thickness of the lip between locking arc and slot", "overlap of locking arc and slot"
             fix = "take a smaller locking_radius or pin_radius"
-            yield LOCKING.check(status, what, lip, 0.0, "mm", overlap=overlap, fix=fix)
+            if lip:
+                yield LOCKING.check(status, what, lip, 0.0, "mm", overlap=overlap, fix=fix)
+            else:
+                yield LOCKING.check("fail", "no lip is left: locking arc and slot touch", fix=fix)
             yield from self._held(self.outlines_with(self.spec.locking_radius or 0.0), lips=lip > 0.0)
         if self.drive.sign > 0.0:
             bottom = self.drive.distance - self.crank_radius

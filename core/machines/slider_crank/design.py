@@ -96,7 +96,9 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     extra_tables = ("candidates",)
     derived = frozenset((*names("velocity", "acceleration"), *SLIDER_SPEEDS))
     requirements = Design.requirements | {"stroke", "quick_return_ratio"}
-    ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
+    ways = {
+        "transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"), down("quick_return_ratio"))
+    }
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The stroke by other rods and offsets side by side."""
@@ -274,4 +276,6 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""
         remedy = "lengthen the rod, or bring the slide line nearer"
+        if self._found:  # stroke and time ratio leave the rod, or nothing
+            remedy = "specify a smaller quick_return_ratio"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
