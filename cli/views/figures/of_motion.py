@@ -44,6 +44,7 @@ def draw(command: str, design: Any) -> Figure:
     for order, axes in enumerate(rows):
         _curve(axes, motion, order, narrow=beside)
     panels.heading(rows[0], motion.outputs[0].name.replace("_", " "))
+    vars(made)["over_input"] = rows
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
 
@@ -73,7 +74,7 @@ def _curve(axes: Axes, motion: Motion, order: int, *, narrow: bool) -> None:
         style.full_turn(axes)
     axes.set_xlim(*(math.degrees(end) if turning else end for end in (given.start, given.end)))
     axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
-              color=_COLORS[order], linewidth=1.6, label=output.name)  # fmt: skip
+              color=_COLORS[order], linewidth=1.6)  # fmt: skip
 
 
 def _per_input(unit: str, order: int, turning: bool) -> str:

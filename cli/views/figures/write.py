@@ -46,11 +46,12 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
     Parameters
         known : where the panels stood in the figure of a like design, which leaves out the layout
     """
-    from gearlink.cli.views.figures.drawing import style
+    from gearlink.cli.views.figures.drawing import failing, style
 
     made = panels(command, design)
     if failed := failures(checks):
         style.stamp(made, f"fails: {failed}")
+        failing.instants(made, design, checks)
     return settled(made, known)
 
 

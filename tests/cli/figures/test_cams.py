@@ -13,6 +13,7 @@ from sheets import lines, panel, panel_named, points, sheet, tagged
 
 from gearlink.cli.views.figures import cams
 from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.write import draw
 from gearlink.cli.views.scenes.scene import Body, Chain
 
 MOTION = [
@@ -153,3 +154,18 @@ def test_curves_over_the_input_have_its_time_where_the_speed_is_known() -> None:
         (row,) = (each for each in axes.child_axes if each.get_gid() == "time")
         assert row._functions[0](np.array([360.0])) == pytest.approx(turn, rel=1e-12)
     assert not panel_named(sheet("crank_rocker_links", loads=None).figure, "acceleration").child_axes
+
+
+@pytest.mark.slow
+def test_instants_that_fail_are_red_on_the_curves_over_the_input() -> None:
+    """The picture of a crank-rocker said that its transmission angle fails, and not where."""
+    made = design("crank_rocker_links", limits__transmission_angle=60.0)
+    figure = draw("analyze", made, made.check("transmission-angle"))
+    red = [line for line in tagged(figure, "fails") if hasattr(line, "get_xdata")]
+    assert len(red) == 3
+    table = made.table("motion", samples=720)
+    low = np.interp(red[0].get_xdata(), table["crank_angle"], table["transmission_angle"], period=360.0) < 60.0
+    shown = np.isfinite(np.asarray(red[0].get_ydata(), dtype=float))
+    assert (shown != low).sum() <= 6  # a step at either end of the two stretches, and their neighbours
+    assert low.any()
+    assert not tagged(draw("analyze", design("crank_rocker_links")), "fails")

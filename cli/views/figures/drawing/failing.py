@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import style
-from gearlink.cli.views.scenes.shown import clashes
+from gearlink.cli.views.scenes.shown import build, clashes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from gearlink.cli.views.scenes.scene import Reals, Scene
+    from gearlink.core.base.report import Check
 
 _THICK: Any = {"color": style.WRONG, "linewidth": 3.2, "zorder": 7, "solid_capstyle": "round"}
 
@@ -29,6 +31,24 @@ def past(axes: Axes, x: Any, y: Any, bad: Any, words: str = "fails") -> None:
     wide[:-1] |= bad[1:]
     known = axes.get_legend_handles_labels()[1]
     axes.plot(np.asarray(x), np.where(wide, y, np.nan), **_THICK, label="_" if words in known else words, gid="fails")
+
+
+def instants(made: Figure, design: Any, checks: Sequence[Check]) -> None:
+    """Curves over the input again in red where a check fails, on sheets that name them as `over_input`."""
+    from gearlink.cli.views.figures.drawing import panels
+
+    rows: list[Axes] = vars(made).get("over_input", [])
+    if not rows or design.moving.input.turns is None:
+        return
+    shares = np.linspace(0.0, 1.0, 361)
+    low, high = rows[0].get_xlim()
+    for fault in build(design, shares, (), checks).faults:
+        words = " ".join(fault.words.split()[:2])  # code and name
+        for axes in rows if fault.placed else ():
+            x, y = (np.asarray(data, dtype=float) for data in axes.lines[0].get_data())
+            past(axes, x, y, np.interp(x, low + (high - low) * shares, fault.at) > 0.5, words)
+    if rows[0].get_legend_handles_labels()[1]:
+        panels.legend_above(rows[0], 3)
 
 
 def at(axes: Axes, degrees: float, words: str) -> None:
