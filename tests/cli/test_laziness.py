@@ -307,7 +307,7 @@ _EVALUATED = [
     ("analyze", "planar_quick_return", "guide.velocity_ratio_max", f"{_PARTS} _found"),
     ("analyze", "sheet_press", "natural_frequencies", "own_names chain"),  # without its members' motions
     ("analyze", "measured_cam", "fit_rms", "points cam residuals"),
-    ("analyze", "measured_cam", "min_curvature_radius", "points cam _sharpest"),
+    ("analyze", "measured_cam", "min_curvature_radius", "points cam sharpest"),
     ("analyze", "geneva_drive", "wheel_radius", "drive"),
     ("analyze", "cycloidal_reducer", "output_hole_radius", ""),
     pytest.param("analyze", "quiet_law", "kappa", "law", marks=pytest.mark.slow),  # the law itself takes its time
