@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.cli.views.figures.sheets.true_size import Scale
+    from gearlink.core.base.report import Check
 
 
 class Asked(NamedTuple):
@@ -56,9 +57,10 @@ def run_sheet(source: str, names: Sequence[str], options: Options, asked: Asked)
             made = sheets_of(design, size, at, asked.show)
             chosen, paths = _chosen(made, names, spec, source), []
             _require_vectors(asked, at, chosen, design)
-            failed = failures(checks_of(kind, spec))
+            checks = checks_of(kind, spec)
+            failed = failures(checks)
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
-                paths.append(_write(made, chosen[number], spec, options, failed))
+                paths.append(_write(made, chosen[number], design, options, checks))
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
@@ -124,12 +126,12 @@ def _who_has() -> str:
     return f"the kinds with sheets are {', '.join(kinds())}"
 
 
-def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) -> Path:
-    from gearlink.cli.views.figures.drawing import style
+def _write(made: Makers, name: str, design: Any, options: Options, checks: Sequence[Check]) -> Path:
+    from gearlink.cli.views.figures.drawing import failing, style
     from gearlink.cli.views.figures.drawing.placing import settled
-    from gearlink.cli.views.figures.write import save
+    from gearlink.cli.views.figures.write import failures, save
 
-    ending = options.plot_format.value
+    ending, spec, failed = options.plot_format.value, design.spec, failures(checks)
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
 
     def draw() -> Figure:
@@ -138,6 +140,7 @@ def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) ->
             style.forbid(figure, f"NOT FOR MANUFACTURE: {failed}")
         elif failed:
             style.stamp(figure, f"fails: {failed}")
+            failing.instants(figure, design, checks)
         return settled(figure)
 
     write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi, quiet=options.quiet))

@@ -44,7 +44,7 @@ def draw(command: str, design: Any) -> Figure:
     for order, axes in enumerate(rows):
         _curve(axes, motion, order, narrow=beside)
     panels.heading(rows[0], motion.outputs[0].name.replace("_", " "))
-    vars(made)["over_input"] = rows
+    vars(made)["over_input"] = [rows]
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import cmath
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from factory import changed, design
-from sheets import lines, panel, panel_named, points, sheet, tagged
+from sheets import lines, meetings, panel, panel_named, points, sheet, tagged
 
 from gearlink.cli.views.figures import cams
-from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.drawing import failing, style
+from gearlink.cli.views.figures.drawing.placing import settled
+from gearlink.cli.views.figures.sheets import motion_sheet
 from gearlink.cli.views.figures.write import draw
 from gearlink.cli.views.scenes.scene import Body, Chain
 
@@ -169,3 +172,27 @@ def test_instants_that_fail_are_red_on_the_curves_over_the_input() -> None:
     assert (shown != low).sum() <= 6  # a step at either end of the two stretches, and their neighbours
     assert low.any()
     assert not tagged(draw("analyze", design("crank_rocker_links")), "fails")
+
+
+@pytest.mark.slow
+def test_instants_that_fail_are_red_on_sheets_of_motion(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    made = design("lift_cam", limits__pressure_angle=20.0)
+    figure = motion_sheet.draw(made)
+    failing.instants(figure, made, made.check("pressure-angle"))
+    red = tagged(figure, "fails")
+    assert len(red) == 4
+    degrees = np.asarray(red[1].get_xdata())
+    over = np.abs(np.degrees(made.cams.main.pressure_angle(np.radians(degrees)))) > 20.0
+    assert (np.isfinite(np.asarray(red[1].get_ydata(), dtype=float)) != over).sum() <= 8
+    assert meetings(settled(figure)) == []
+    line = (
+        "sheet",
+        designs / "swing_gripper.yaml",
+        "motion",
+        "--set",
+        "limits.pressure_angle=20",
+        "--plot-format",
+        "svg",
+    )
+    assert gearlink(*line, "--out", tmp_path).status == 0
+    assert 'id="fails' in (tmp_path / "swing-gripper-motion.svg").read_text()

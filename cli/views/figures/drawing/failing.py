@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import style
-from gearlink.cli.views.scenes.shown import build, clashes
+from gearlink.cli.views.scenes import linkages
+from gearlink.cli.views.scenes.shown import build, clashes, frame_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,21 +35,27 @@ def past(axes: Axes, x: Any, y: Any, bad: Any, words: str = "fails") -> None:
 
 
 def instants(made: Figure, design: Any, checks: Sequence[Check]) -> None:
-    """Curves over the input again in red where a check fails, on sheets that name them as `over_input`."""
+    """Curves over the input again in red where a check fails, on sheets that name their panels as `over_input`."""
     from gearlink.cli.views.figures.drawing import panels
 
-    rows: list[Axes] = vars(made).get("over_input", [])
-    if not rows or design.moving.input.turns is None:
+    columns: list[list[Axes]] = vars(made).get("over_input", [])
+    given = design.moving.input if columns else None
+    if given is None or given.turns is None:
         return
-    shares = np.linspace(0.0, 1.0, 361)
-    low, high = rows[0].get_xlim()
-    for fault in build(design, shares, (), checks).faults:
-        words = " ".join(fault.words.split()[:2])  # code and name
-        for axes in rows if fault.placed else ():
-            x, y = (np.asarray(data, dtype=float) for data in axes.lines[0].get_data())
-            past(axes, x, y, np.interp(x, low + (high - low) * shares, fault.at) > 0.5, words)
-    if rows[0].get_legend_handles_labels()[1]:
-        panels.legend_above(rows[0], 3)
+    low, high = math.degrees(given.start), math.degrees(given.end)
+    shares = np.arange(360) / 360.0
+    faults = [fault for fault in build(design, shares, (), checks).faults if fault.placed]
+    frame = frame_of(design, linkages.builder(design.kind)) if faults else None
+    place = (np.degrees(frame.inputs(shares)) - low if frame else (high - low) * shares) % (high - low)
+    order = np.argsort(place)
+    for rows in columns:
+        for fault, axes in ((fault, axes) for fault in faults for axes in rows):
+            curve = max(axes.lines, key=lambda line: len(np.asarray(line.get_xdata())))
+            x, y = (np.asarray(data, dtype=float) for data in curve.get_data())
+            bad = np.interp(x - low, place[order], fault.at[order], period=high - low) > 0.5
+            past(axes, x, y, bad, " ".join(fault.words.split()[:2]))  # code and name
+        if rows[0].get_legend_handles_labels()[1] and not rows[0].child_axes:  # above it are names of phases
+            panels.legend_above(rows[0], 3)
 
 
 def at(axes: Axes, degrees: float, words: str) -> None:

@@ -172,6 +172,7 @@ def draw(design: Any) -> Figure:
     made = panels.page(f"{design.spec.name}: motion", 1.0 if len(shown) < 3 else 0.95)
     rows = max(len(course.rates) for course in shown)
     grid = made.add_gridspec(rows, len(shown))
+    columns: list[list[Axes]] = []
     for column, course in enumerate(shown):
         axes = [made.add_subplot(grid[row, column]) for row in range(len(course.rates))]
         for order, each in enumerate(axes):
@@ -179,6 +180,10 @@ def draw(design: Any) -> Figure:
         panels.heading(axes[0], course.name)
         if course.bands:
             panels.shade(axes, course.bands)
+        columns.append(axes)
+    place = KINDS[design.kind].all_sheets["motion"]
+    if place.endswith((":of_motion", ":press", ":gripper")):  # the others are over a stroke, or a function
+        vars(made)["over_input"] = columns
     return made
 
 
