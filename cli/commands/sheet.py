@@ -127,8 +127,9 @@ def _who_has() -> str:
 
 
 def _write(made: Makers, name: str, design: Any, options: Options, checks: Sequence[Check]) -> Path:
-    from gearlink.cli.views.figures.drawing import failing, style
+    from gearlink.cli.views.figures.drawing import style
     from gearlink.cli.views.figures.drawing.placing import settled
+    from gearlink.cli.views.figures.of_motion import instants
     from gearlink.cli.views.figures.write import failures, save
 
     ending, spec, failed = options.plot_format.value, design.spec, failures(checks)
@@ -140,7 +141,7 @@ def _write(made: Makers, name: str, design: Any, options: Options, checks: Seque
             style.forbid(figure, f"NOT FOR MANUFACTURE: {failed}")
         elif failed:
             style.stamp(figure, f"fails: {failed}")
-            failing.instants(figure, design, checks)
+            instants(figure, design, checks)
         return settled(figure)
 
     write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi, quiet=options.quiet))

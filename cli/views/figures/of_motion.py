@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.scenes import shown
 from gearlink.cli.views.scenes.linkages import builder
 from gearlink.cli.views.scenes.of_motion import inputs
 
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.base.report import Check
     from gearlink.core.mechanism.motion import Motion
 
 _LABELS = ("position", "velocity", "acceleration")
@@ -47,6 +50,28 @@ def draw(command: str, design: Any) -> Figure:
     vars(made)["over_input"] = [rows]
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
+
+
+def instants(made: Figure, design: Any, checks: Sequence[Check]) -> None:
+    """Curves over the input again in red where a check fails, on sheets that name their panels as `over_input`."""
+    columns: list[list[Axes]] = vars(made).get("over_input", [])
+    given = design.moving.input if columns else None
+    if given is None or given.turns is None:
+        return
+    low, high = math.degrees(given.start), math.degrees(given.end)
+    shares = np.arange(360) / 360.0
+    faults = [fault for fault in shown.build(design, shares, (), checks).faults if fault.placed]
+    frame = shown.frame_of(design, builder(design.kind)) if faults else None
+    place = (np.degrees(frame.inputs(shares)) - low if frame else (high - low) * shares) % (high - low)
+    order = np.argsort(place)
+    for rows in columns:
+        for fault, axes in ((fault, axes) for fault in faults for axes in rows):
+            curve = max(axes.lines, key=lambda line: len(np.asarray(line.get_xdata())))
+            x, y = (np.asarray(data, dtype=float) for data in curve.get_data())
+            bad = np.interp(x - low, place[order], fault.at[order], period=high - low) > 0.5
+            failing.past(axes, x, y, bad, " ".join(fault.words.split()[:2]))  # code and name
+        if rows[0].get_legend_handles_labels()[1] and not rows[0].child_axes:  # above it are names of phases
+            panels.legend_above(rows[0], 3)
 
 
 def _driven(motion: Motion) -> tuple[complex, float] | None:

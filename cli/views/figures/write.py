@@ -46,12 +46,14 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
     Parameters
         known : where the panels stood in the figure of a like design, which leaves out the layout
     """
-    from gearlink.cli.views.figures.drawing import failing, style
+    from gearlink.cli.views.figures.drawing import style
 
     made = panels(command, design)
     if failed := failures(checks):
         style.stamp(made, f"fails: {failed}")
-        failing.instants(made, design, checks)
+        from gearlink.cli.views.figures.of_motion import instants
+
+        instants(made, design, checks)
     return settled(made, known)
 
 
