@@ -294,6 +294,13 @@ def test_parts_for_processes_hold_every_file_once_and_one_kind_each(tmp_path: Pa
     assert all(len({[*kinds, ""][k] for k in part}) == 1 and len(part) <= 6 for part in parts)
 
 
+def test_parts_with_most_text_come_first(tmp_path: Path) -> None:
+    """Two processes then end at about the same time."""
+    for k, length in enumerate((10, 400, 30, 2000)):
+        (tmp_path / f"{k}.yaml").write_text(f"kind: k{k}\n" + "# text\n" * length, encoding="utf-8")
+    assert by_kind([str(path) for path in sorted(tmp_path.iterdir())], 2) == [[3], [1], [2], [0]]
+
+
 def test_a_slider_crank_is_checked_without_a_limit_in_its_file(gearlink: Any, tmp_path: Path) -> None:
     """The transmission angle has a default limit, which `analyze` compares too."""
     path = tmp_path / "short_rod.yaml"
