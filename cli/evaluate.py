@@ -16,6 +16,7 @@ from gearlink.core.base.design import UnknownName
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kind import FileDesigns, Kind
 from gearlink.core.base.kinds import FILES, STUDY
+from gearlink.core.base.wording import first_of
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
@@ -174,8 +175,6 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     if command in kind.commands:
         return
     message = f"`{command}` does not apply to a {kind.name}; available for this kind: {', '.join(kind.commands)}"
-    from gearlink.core.base.wording import first_of
-
     serves = [name for name, other in FILES.items() if command in other.commands]
     help = f"`{command}` serves {first_of(serves)}; `gearlink new {serves[0]}` writes such a file" if serves else ""
     raise DesignFileError([loaded.report("GL113", message, ("kind",), help=help)])

@@ -10,6 +10,7 @@ import sys
 from gearlink.cli import process
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, leave_nothing_behind
+from gearlink.cli.printable import visible
 
 _STANDARD_OUTPUT = 1
 _LEAST_MEMORY = 500 << 20
@@ -178,8 +179,6 @@ def _memory_limit() -> int:
 
 
 def _fault(fault: Exception) -> int:
-    from gearlink.cli.printable import visible
-
     if isinstance(fault, OSError):
         where = f"{fault.filename}: " if fault.filename else ""
         print(f"error: {visible(f'{where}{fault.strerror or fault}')}", file=sys.stderr)

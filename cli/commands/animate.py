@@ -7,6 +7,8 @@ import sys
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.cli.evaluate import checks_of, open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
@@ -59,8 +61,6 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
 
 def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
     """The design of a file and its scene; whatever the mechanism refuses becomes a located error."""
-    import numpy as np
-
     from gearlink.cli.views.scenes import shown
 
     try:
@@ -85,8 +85,6 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
 
 def require_shown(design: Design, show: str) -> None:
     """Refuse what cannot be shown on a mechanism, before all else is made."""
-    import numpy as np
-
     from gearlink.cli.views.scenes import shown
 
     try:

@@ -9,6 +9,8 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.cli.commands.design import print_report, written_beside
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
@@ -347,8 +349,6 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
 
 def _pointed(chart: DesignChart, x: Any, y: Any, parameter: float) -> tuple[Any, Any]:
     """A curve with more places about its maximum row, from the row before it to that after it."""
-    import numpy as np
-
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     for _ in range(2):
         top = int(np.argmax(np.nan_to_num(y, nan=-np.inf)))

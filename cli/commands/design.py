@@ -22,6 +22,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
+from gearlink.cli.render.json_report import as_json
 from gearlink.cli.render.markdown_report import as_markdown, text_of
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import fixed_name
@@ -133,8 +134,6 @@ def plot(command: str, design: Design, options: Options, report: Report) -> None
 def print_report(report: Report, options: Options) -> None:
     """Print a report in the format of the options."""
     if options.format is Format.JSON:
-        from gearlink.cli.render.json_report import as_json
-
         print(as_json(report))
     elif options.format is Format.CSV:
         from gearlink.cli.render.csv_report import write_csv

@@ -20,6 +20,8 @@ from gearlink.cli.printable import for_shell, json_text
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
+from gearlink.cli.render.json_report import as_plain
+from gearlink.cli.render.markdown_report import markdown_table
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.trials import Bench
 from gearlink.core.base.report import Check, Remedy, Report
@@ -132,8 +134,6 @@ def _print(changes: Sequence[Change] | None, report: Report, options: Options) -
             print(_as_text(changes, options), file=sys.stderr)
         return
     if options.format is Format.JSON:
-        from gearlink.cli.render.json_report import as_plain
-
         whole = as_plain(report) | {"suggestions": _as_plain(changes or ())}
         print(json_text(whole))
         return
@@ -155,8 +155,6 @@ def _as_text(changes: Sequence[Change] | None, options: Options) -> str:
         csv.writer(stream, lineterminator="\n").writerows(rows)
         return stream.getvalue()
     if options.format is Format.MARKDOWN:
-        from gearlink.cli.render.markdown_report import markdown_table
-
         rows = [(f"`{c.path}`", _shown(c.old), _shown(c.new), c.why) for c in changes]
         return (
             f"## Suggestions\n\n{markdown_table(('change', 'old', 'new', 'why'), rows)}\n\n`{overrides(changes)}`\n"

@@ -17,6 +17,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Protocol
 
+import numpy as np
+
 from gearlink.cli.program import program
 from gearlink.cli.reading.places import is_named_pipe
 from gearlink.core.base.errors import GearlinkError
@@ -354,8 +356,6 @@ def of_another_program(path: Path, meta: Mapping[str, str], what: str) -> Cannot
 
 def _is_sound(chunk: Chunk, number: int, problem: Problem) -> bool:
     """Whether every field of a chunk has its type and range."""
-    import numpy as np
-
     first = number * problem.chunk_size
     last = min(first + problem.chunk_size, problem.order.count) - 1
     places, objectives = chunk.rows[:, 0], chunk.rows[:, 1 : 1 + len(problem.objectives)]

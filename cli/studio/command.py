@@ -22,6 +22,7 @@ from gearlink.cli.quiet import without_notes
 from gearlink.cli.reading.design_file import parse, read_kind
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
+from gearlink.core.base.kinds import FILES, KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -81,8 +82,6 @@ def _opened(source: str) -> Document:
 
 
 def _refuse_study(text: str, source: str) -> None:
-    from gearlink.core.base.kinds import FILES, KINDS
-
     try:
         loaded = parse(text.encode(), source)
         kind = read_kind(loaded, tuple(FILES))

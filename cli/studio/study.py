@@ -15,6 +15,7 @@ from gearlink.cli.reading.design_file import parse, read_kind
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.studio.text import with_value
 from gearlink.core.base.errors import GearlinkError, NoSolution
+from gearlink.core.base.key_results import key_results
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
 
@@ -75,8 +76,6 @@ class Study:
         Raises
             DesignFileError - where it is refused, at its line
         """
-        from gearlink.core.base.key_results import key_results
-
         design = self.design(command)
         with refusals_located(self.loaded):
             asked = tuple(names) or design.outline(command).quantities

@@ -44,6 +44,7 @@ from gearlink.cli.views.scenes.scene import (
     track,
     wheel,
 )
+from gearlink.core.machines.flatbed_press.chains import difference, least_transmission_input
 from gearlink.core.machines.flatbed_press.loads_spec import PressLoads
 from gearlink.core.machines.flatbed_press.mechanism import bare
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
@@ -387,8 +388,6 @@ def machine(axes: Axes, design: FlatbedPress) -> None:
 
 def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
     """The press in twelve positions, and last where a chain has its minimum transmission angle."""
-    from gearlink.core.machines.flatbed_press.chains import least_transmission_input
-
     fraction = np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN)
     return Machine(design, fraction, cams=design.bed_moves)
 
@@ -620,8 +619,6 @@ def _follower(axes: list[Axes], design: FlatbedPress) -> None:
 
 def _compensation(axes: Axes, design: FlatbedPress) -> None:
     """Difference of bed and cylinder travel that the cam makes good in the zone, over the input angle."""
-    from gearlink.core.machines.flatbed_press.chains import difference
-
     phi = np.linspace(design.sync_start, design.sync_end, 241)
     gap = difference(design.bed, design.cylinder, phi).value
     style.curves(axes, "input angle [deg]", "bed less cylinder travel [mm]")

@@ -25,6 +25,7 @@ from gearlink.core.base.nomenclature import term
 from gearlink.core.parts.gears.checks import gear_quantity
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry, driven_turn
+from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -452,8 +453,6 @@ def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
 
 def _zone_ring(axes: Axes, mesh: Mesh) -> None:
     """The teeth of a ring, and its body out to the rim."""
-    from gearlink.core.parts.gears.outline.ring_profile import RingProfile
-
     pair, geometry = mesh.pair, mesh.geometry
     center = geometry.axes[1]
     teeth = RingProfile.of(pair).outline(48) * np.exp(1j * geometry.first_space[1]) + center

@@ -8,8 +8,11 @@ from collections.abc import Mapping, Sequence
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.core.parts.cams.law_tables import MotionLaws
+from gearlink.core.parts.cams.laws import law as law_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -56,9 +59,6 @@ def draw(design: MotionLaws) -> Figure:
 
 def draw_design(command: str, design: MotionLawDesign) -> Figure:
     """Rise and derivatives of the law of a file, and the vibration that it leaves beside that of usual laws."""
-    import numpy as np
-
-    from gearlink.core.parts.cams.laws import law as law_of
     from gearlink.core.parts.cams.shaped import residuals
     from gearlink.core.parts.cams.shaped_design import BESIDE
 
@@ -79,8 +79,6 @@ def draw_design(command: str, design: MotionLawDesign) -> Figure:
 
 def residual_panel(axes: Axes, heading: str, x: Any, left: Mapping[str, Any]) -> None:
     """Vibration left over x by the names of laws, on a logarithmic axis."""
-    import numpy as np
-
     panels.heading(axes, heading)
     least = _FAINTEST * max(float(values.max()) for values in left.values())
     for k, (name, values, look) in enumerate(zip(left, left.values(), _looks(len(left)), strict=True)):
@@ -120,8 +118,6 @@ _FAINTEST = 1e-5  # of the maximum
 
 
 def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:
-    import numpy as np
-
     x = np.linspace(0.0, 1.0, _POINTS)
     panels.heading(axes[0], heading)
     infinite: Counter[tuple[float, bool]] = Counter()

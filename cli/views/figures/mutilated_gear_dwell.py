@@ -34,6 +34,9 @@ from gearlink.cli.views.scenes.scene import (
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell, driven
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, tooth_space
+from gearlink.core.parts.linkages.dyad import acute
+from gearlink.core.parts.linkages.fourbar.position import solve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -93,8 +96,6 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     The first and the last tooth of a group are cut down so far that they pass the resting gear; the model says no
     more of them, nor of the locking arcs.
     """
-    from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, tooth_space
-
     gears, mesh = design.spec.gears, design.mesh
     root = mesh.root_radius[0]
     step = TURN / design.full_teeth
@@ -185,9 +186,6 @@ def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
 
 def _transmission(axes: Axes, design: MutilatedGearDwell) -> None:
     """The four-bar over its own turn, which it passes in parts, one a cycle."""
-    from gearlink.core.parts.linkages.dyad import acute
-    from gearlink.core.parts.linkages.fourbar.position import solve
-
     assert design.linkage is not None, "as for the chart"
     degrees = np.arange(721) * 0.5
     states = [solve(design.linkage, math.radians(x), 0) for x in degrees.tolist()]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.cli.views.figures.drawing import panels, style, time_axes
 from gearlink.core.studies.tolerance.budget import at_worst
 
@@ -44,8 +46,6 @@ def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
 
 def _stretch(axes: Axes, design: RegisterDesign) -> None:
     """Band and worst case relative to the start of the stretch."""
-    import numpy as np
-
     degrees = np.degrees(design.input_angles)
     style.curves(axes, "input angle [deg]", "error [mm]")
     panels.small_ticks(axes)
@@ -70,8 +70,6 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
 
 def _along(axes: Axes, design: RegisterDesign) -> None:
     """The maximum sources along the stretch, each at its limit, relative to its start."""
-    import numpy as np
-
     degrees = np.degrees(design.input_angles)
     style.curves(axes, "input angle [deg]", "error [mm]")
     panels.small_ticks(axes)
@@ -91,8 +89,6 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
 
 def _cycle(axes: Axes, design: RegisterDesign) -> None:
     """Absolute error over the whole cycle."""
-    import numpy as np
-
     table = design.table_cycle()
     signs, degrees, band = (np.asarray(table[name]) for name in ("torque_sign", "input_angle", "band"))
     style.curves(axes, "input angle [deg]", "error [mm]")

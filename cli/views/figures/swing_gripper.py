@@ -41,6 +41,7 @@ from gearlink.cli.views.scenes.scene import (
     track,
     wheel,
 )
+from gearlink.core.machines.swing_gripper.law import PHASES
 from gearlink.core.machines.swing_gripper.mechanism import without_cams
 
 if TYPE_CHECKING:
@@ -158,8 +159,6 @@ def _chart(design: SwingGripper, degrees: Reals) -> Chart:
 
 
 def _phases(design: SwingGripper) -> tuple[Band, ...]:
-    from gearlink.core.machines.swing_gripper.law import PHASES
-
     starts = design.law.starts
     named = zip(PHASES, starts, starts[1:], strict=False)
     return bands((name, start, end, PHASE_TINTS[name]) for name, start, end in named)
@@ -206,8 +205,6 @@ def _draw_motion(command: str, design: SwingGripper) -> Figure:
 
 def phases(design: SwingGripper) -> list[panels.Phase]:
     """The six phases of the law."""
-    from gearlink.core.machines.swing_gripper.law import PHASES
-
     starts = design.law.starts
     return [panels.Phase(name, start, end) for name, start, end in zip(PHASES, starts, starts[1:], strict=False)]
 

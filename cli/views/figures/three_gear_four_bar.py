@@ -31,6 +31,7 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.mechanism import OUTPUT, poles
+from gearlink.core.machines.three_gear.motion import output_angle
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 
 if TYPE_CHECKING:
@@ -176,8 +177,6 @@ def _output(axes: Axes, design: ThreeGearFourBar) -> None:
 
 def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     """The output about its dwell, counted from its place at the start of it."""
-    from gearlink.core.machines.three_gear.motion import output_angle
-
     dwell = _dwell(design)
     assert dwell is not None, "drawn only where the output has zero velocity"
     width = dwell.width or 60.0
@@ -245,8 +244,6 @@ def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: floa
     found, window = design.tolerance_dwell, _window(design, near)
     if found is None or window is None or design.output_tolerance is None:
         return
-    from gearlink.core.machines.three_gear.motion import output_angle
-
     start = math.radians(window.start)
     shift = output_angle(design.linkage, design.train, start) - output_angle(design.linkage, design.train, found.start)
     middle = math.degrees(found.output_angle + shift - at_start)

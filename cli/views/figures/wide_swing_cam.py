@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.drawing.panels import powers_of_ten
 from gearlink.cli.views.scenes.linkages import Joints
 from gearlink.cli.views.scenes.scene import (
     BLACK,
@@ -230,7 +231,6 @@ def _zone(axes: Axes, design: WideSwingDesign) -> None:
 
 def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
-    from gearlink.cli.views.figures.drawing.panels import powers_of_ten
     from gearlink.core.machines.wide_swing.strokes import is_external
 
     stroke_axis(axes, design, "radius [mm]")

@@ -45,6 +45,7 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.base.design import UnknownName
 from gearlink.core.base.errors import GearlinkError, NoSolution, named
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism import vectors
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME
@@ -396,15 +397,11 @@ def _is_loaded(design: Any) -> bool:
 
 def _names_loads(design: Any) -> bool:
     """Whether the file has loads of which its kind computes the forces."""
-    from gearlink.core.base.kinds import KINDS
-
     return getattr(design.spec, "loads", None) is not None and "loads" in KINDS[design.kind].commands
 
 
 def has_motion(design: Any) -> bool:
     """Whether the links of a design are known by their motion."""
-    from gearlink.core.base.kinds import KINDS
-
     return design.kind in KINDS and bool(KINDS[design.kind].motion)
 
 
@@ -693,8 +690,6 @@ def speed_of(design: Any) -> float | None:
 
 def loads_design(design: Any) -> Any:
     """The design of the loads of the same file; None where the file or the kind has none."""
-    from gearlink.core.base.kinds import KINDS
-
     if _is_loaded(design):
         return design
     return KINDS[design.kind].design("loads", design.spec) if _names_loads(design) else None

@@ -19,6 +19,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, fixed, standing, steady
+from gearlink.core.numerics.arrays import turn_degrees
 from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
@@ -185,8 +186,6 @@ class LinkedCams(RealSpeed, Design):
 
     def table_path(self, samples: int | None = None) -> Table:
         """The path over the input angle, with lifts and rates."""
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         theta = np.radians(degrees)
         columns = {"input_angle": (degrees, "deg")}

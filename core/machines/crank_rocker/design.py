@@ -6,12 +6,15 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import within
 from gearlink.core.mechanism.courses import Shown, all_rates, between, coordinate, motion_table, turned
 from gearlink.core.mechanism.dual import longer
@@ -20,6 +23,7 @@ from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.numerics.motion_extremes import extremes, names
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
 from gearlink.core.parts.linkages.dyad import acute
+from gearlink.core.parts.linkages.fourbar import sweep
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
@@ -209,8 +213,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         return self._within("acceleration_ratio", "rocker_acceleration", 2)
 
     def _within(self, name: str, rate: str, order: int) -> list[Turning]:
-        from gearlink.core.parts.linkages.fourbar import sweep
-
         assert self.crank_range is not None
         curve = {name: lambda phi: getattr(sweep.solve(self.linkage, phi, order), rate)}
         found = extremes(curve, *self.crank_range)
@@ -246,8 +248,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
         The radius is positive where the path curves to the left of its way, and null where it is straight.
         """
-        import numpy as np
-
         self.require_table("path")
         x, y = (coordinate("coupler", "P", along) for along in (1.0 + 0j, 1j))
         shown = [Shown(f"{name}{order}", course, order) for name, course in (("x", x), ("y", y)) for order in range(3)]
@@ -274,10 +274,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
     def _over(self, name: str, shown: Any, samples: int | None) -> Table:
         degrees = None
         if self.crank_range is not None:
-            import numpy as np
-
-            from gearlink.core.base.rows import row_numbers
-
             start, end = self.spec.range or (math.degrees(angle) for angle in self.crank_range)
             count = samples or 180
             rows = row_numbers(samples, count + 1)

@@ -10,6 +10,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key, section_of
 from gearlink.core.base.remedies.ways import down, either
@@ -278,8 +280,6 @@ def generated(wanted: Wanted, start: float, zero: float, least: float) -> Genera
         start, zero : float [rad] - crank and rocker angle at the first x
         least : float [rad] - transmission angle that it keeps over the swing
     """
-    import numpy as np
-
     from gearlink.core.numerics.extremes import maximum_over
 
     at = wanted.output(np.array(_PLACES))

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import DiscCamDesign
+from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign, contact_table
 from gearlink.core.studies.loads.contact import positive_drive, roller_on
 from gearlink.core.studies.loads.design import loads_outline
@@ -101,10 +104,7 @@ class FollowerCamLoads(_Loads):
 
     def _spring(self, mechanism: Mechanism, phi: Reals) -> list[Force | Torque]:
         """The spring presses the follower on the cam."""
-        import numpy as np
-
         from gearlink.core.mechanism.dynamics import Force, Torque
-        from gearlink.core.mechanism.joints import NEWTON_METER
 
         if self.spec.spring is None:
             return []
@@ -167,8 +167,6 @@ class FollowerCamLoads(_Loads):
 
     def contact_force(self, name: str, phi: Reals) -> Reals:
         """Out of the reactions; of a positive drive what the preload leaves on each roller."""
-        import numpy as np
-
         found = self.side_force(phi)
         if self.spec.closure == "spring":
             return found

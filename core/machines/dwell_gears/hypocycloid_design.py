@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
@@ -550,8 +552,6 @@ class SlottedArm:
 
         beta' = 1 + Im u,  u = z_1/z,  u' = z_2/z - u^2,  u'' = z_3/z - u^3 - 3 u u';  z_k the derivatives of z
         """
-        import numpy as np
-
         n = self.teeth
         around: Any = self.ratio * np.exp(-1j * n * t)
         z = (n - 1.0) - around

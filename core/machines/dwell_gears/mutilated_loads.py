@@ -9,9 +9,13 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
+from gearlink.core.mechanism.dynamics import reduced
+from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.mechanism.motion import TURN, Motion
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar
 from gearlink.core.studies.loads.design import LoadsDesign, homecoming, loads_outline
@@ -97,11 +101,6 @@ class MutilatedGearLoads(LoadsDesign):
 
         E = J_red w_F^2/2,  J_red of all links at the driven shaft
         """
-        import numpy as np
-
-        from gearlink.core.mechanism.dynamics import reduced
-        from gearlink.core.mechanism.links import Mechanism
-
         count = self.design.cycles_to_repeat
         starts = np.arange(count, dtype=np.float64) * (TURN * self.design.driven_turn) + (
             self.design.start_crank_angle or 0.0

@@ -31,6 +31,7 @@ from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Me
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE, POSE_ORDER
+from gearlink.core.parts.linkages.functions import Wanted
 from gearlink.core.studies.clearance import (
     SHAFT_WAYS,
     Gear,
@@ -637,8 +638,6 @@ class FiveBarParts(Meshed):
         target = self.spec.target
         if target is None or target.function is None:
             return None
-        from gearlink.core.parts.linkages.functions import Wanted
-
         asked = target.function
         circular = asked.name in ("sine", "cosine", "tangent")
         low, high = (math.radians(x) if circular else x for x in asked.x)

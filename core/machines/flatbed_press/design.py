@@ -30,6 +30,7 @@ from gearlink.core.base.remedies.ways import (
 )
 from gearlink.core.base.report import Check, Rule, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
@@ -37,6 +38,7 @@ from gearlink.core.machines.flatbed_press.codes import RACK_LENGTH, REGISTER, SY
 from gearlink.core.machines.flatbed_press.compensation import Compensation, turns_back
 from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
+from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.checks import (
     HUB,
     ROLLER_SHARE,
@@ -48,6 +50,7 @@ from gearlink.core.parts.cams.checks import (
 )
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CONSTANT_SUM, LARGER, VELOCITY_STEP
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
+from gearlink.core.parts.cams.laws import law
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws, is_shaped
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.parts.gears.codes import AT_LIMITS
@@ -502,7 +505,6 @@ def polygons(design: FlatbedPress, samples: int | None = None) -> dict[str, tupl
     """
     import numpy as np
 
-    from gearlink.core.base.rows import row_numbers
     from gearlink.core.machines.flatbed_press.mechanism import bare
 
     count = samples or 12
@@ -727,8 +729,6 @@ class PressCams(DiscCams):
     @cached_property
     def follower(self) -> Compensation:
         """The lift of the compensation cam's follower."""
-        from gearlink.core.parts.cams.laws import law
-
         cam, motion = self.section, self.motion
         with in_section("cam.return_law"):
             return_law = law("cycloidal" if self._shaped_return else cam.return_law)
@@ -753,8 +753,6 @@ class PressCams(DiscCams):
 
     def _return_of(self, rise: float) -> Law:
         """The law of a return that numbers shape, over the rise that it takes back [mm]."""
-        from gearlink.core.parts.cams.laws import law
-
         with in_section("cam.return_law"):
             found = law(self.section.return_law, self.return_phase(rise))
             _require_rest(found)
@@ -834,8 +832,6 @@ class PressCams(DiscCams):
             Within a step of doubling the curvature is taken to grow with the radius; the radius that is found is
             checked by its own cams.
         """
-        from gearlink.core.numerics.roots import bracketed_root
-
         roller = self.section.roller_radius
         wanted = roller / ROLLER_SHARE * (1.0 + _HAIR)
 

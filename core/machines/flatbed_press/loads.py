@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above
 from gearlink.core.base.results import cached_property
@@ -13,6 +15,8 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import mechanism
 from gearlink.core.machines.flatbed_press.codes import PLACE
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
+from gearlink.core.mechanism.joints import Pin, Rack
+from gearlink.core.mechanism.rates import from_start
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
 from gearlink.core.studies.loads.design import loads_outline
 
@@ -190,8 +194,6 @@ class PressLoads(CamLoadsDesign):
     @cached_property
     def places(self) -> tuple[dict[str, complex], dict[str, complex]]:
         """Where pins and racks stand at input angle 0 [mm], in the frame of the forces."""
-        from gearlink.core.mechanism.joints import Pin, Rack
-
         joints = self._connections
         return (
             {each.name: complex(each.at[0]) for each in joints if isinstance(each, Pin)},
@@ -221,14 +223,10 @@ class PressLoads(CamLoadsDesign):
 
     def _cam_turn(self, phi: Reals) -> Turn:
         """Angle turned by the cams."""
-        from gearlink.core.mechanism.rates import from_start
-
         return from_start(self.machine.at(phi).links["CDE"].turn, self.design.bed.cam_angle_start)
 
     def contact_force(self, name: str, phi: Reals) -> Reals:
         """Out of the reactions: the main cam pushes, the return cam pulls back; with a preload both press."""
-        import numpy as np
-
         from gearlink.core.studies.loads.contact import positive_drive
 
         net = self.side_force(phi)
@@ -262,8 +260,6 @@ class PressLoads(CamLoadsDesign):
         return self.extreme_of("preload").value
 
     def _needed(self, phi: Reals) -> Reals:
-        import numpy as np
-
         share = self._stiffness[0] / sum(self._stiffness)
         net = self.side_force(phi)
         return np.asarray(np.maximum(net * (1.0 - share), -net * share))
@@ -290,6 +286,4 @@ class PressLoads(CamLoadsDesign):
 
     def cam_degrees(self, phi: Reals) -> Reals:
         """Angle turned by the cams [deg]."""
-        import numpy as np
-
         return np.degrees(self._cam_turn(phi).value)

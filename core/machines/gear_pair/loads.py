@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.gear_pair.design import GearPairDesign
+from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 
@@ -67,8 +68,6 @@ class GearPairLoads(LoadsDesign):
     @property
     def tilting_moment_max(self) -> list[float] | None:
         """Maximum moment F_a r_w that tilts gear 1 and gear 2 [N m]; None of spur gears."""
-        from gearlink.core.mechanism.joints import NEWTON_METER
-
         force = self.axial_force_max
         return None if force is None else [force * abs(radius) / NEWTON_METER for radius in self.pair.working_radius]
 

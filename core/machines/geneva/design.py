@@ -17,6 +17,7 @@ from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Status, Table, safely_below, without_noise
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.dual import Shift
@@ -622,7 +623,6 @@ class GenevaDrive(RealSpeed, Design):
             NoSolution - where its step is another
         """
         from gearlink.core.base.kinds import KINDS
-        from gearlink.core.base.spec_paths import changed
 
         spec = changed(self.spec.compare, [("dwell_backlash", None), ("dwell_tolerance", self.spec.compare_tolerance)])
         with in_section("compare"):

@@ -19,7 +19,9 @@ from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
+from gearlink.core.machines.planar.course import Course
 from gearlink.core.machines.planar.extremes import Wanted, extremes, turning_points
+from gearlink.core.machines.planar.outputs import moved, point_output
 from gearlink.core.machines.planar.structure import GearJoint, RackJoint, Structure
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
@@ -398,8 +400,6 @@ class PlanarMechanism(Design):
     @cached_property
     def course(self) -> Course:
         """Its motion from the start on."""
-        from gearlink.core.machines.planar.course import Course
-
         return Course(self.structure)
 
     @property
@@ -413,8 +413,6 @@ class PlanarMechanism(Design):
     @cached_property
     def meanings(self) -> dict[str, Meaning]:
         """What the quantities of the outputs are."""
-        from gearlink.core.machines.planar.outputs import moved
-
         per, timed = "mm" if self.spec.drive.slide else "rad", self.spec.input_speed is not None
         return dict(
             chain.from_iterable(
@@ -495,8 +493,6 @@ class PlanarMechanism(Design):
     @property
     def output_columns(self) -> dict[str, tuple[str, ...]]:
         """The first output of the file."""
-        from gearlink.core.machines.planar.outputs import moved
-
         return {"motion": tuple(part.columns[0] for part in moved(self.structure, self.spec.shown[0]))}
 
     # General quantities
@@ -596,8 +592,6 @@ class PlanarMechanism(Design):
         if through:
             return None
         if meaning.side == "path":
-            from gearlink.core.machines.planar.outputs import point_output
-
             return length(self.course, *point_output(self.structure, output.name.removesuffix("_x")))
         (found,) = self.extremes((output.name, order))
         if meaning.side == "span":

@@ -6,12 +6,16 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.core.base.design import NamesOfFile, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.design import PlanarMechanism
+from gearlink.core.machines.planar.outputs import inputs
+from gearlink.core.mechanism.joints import Contact, Guide
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 
@@ -182,12 +186,8 @@ class PlanarLoads(LoadsDesign):
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles of a table's rows from where the pass begins [rad], and the first column."""
-        import numpy as np
-
         if self.spec.range is None:
             return super().rows(samples)
-        from gearlink.core.machines.planar.outputs import inputs
-
         degrees = inputs(self.design, samples)
         return np.radians(degrees) - self._first, {"input_angle": (degrees, "deg")}
 
@@ -208,8 +208,6 @@ class PlanarLoads(LoadsDesign):
 
     def table_joints(self, samples: int | None = None) -> Table:
         """Forces of pins, those across slides with their couples, those of slots."""
-        from gearlink.core.mechanism.joints import Contact, Guide
-
         whole = tables.joints(self, samples)
         found = self.machine.reactions(self.rows(samples)[0])
         columns = dict(zip(whole.columns, zip(whole.data, whole.units, strict=True), strict=True))

@@ -8,8 +8,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from gearlink.core.base.report import Table
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.planar.system import Jets, scaled
+from gearlink.core.numerics.arrays import turn_degrees
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.design import PlanarMechanism
@@ -113,8 +117,6 @@ def _place_on(line: Line, size: float, names: Sequence[str]) -> Course:
 
 def jets_of(mechanism: Mechanism, names: Sequence[str], size: float) -> Jets:
     """Taylor coefficients of some links of a mechanism, lengths in units of size; of all its rows one after another."""
-    import numpy as np
-
     links = [mechanism.link(name) for name in names]
     order = min(link.turn.order for link in links if link is not None)
     still = np.zeros(next(link.turn.value.size for link in links if link is not None))
@@ -164,11 +166,6 @@ _REAL = {"rad": ("rad/s", "rad/s^2", "rad/s^3"), "mm": ("mm/s", "mm/s^2", "mm/s^
 
 def inputs(design: PlanarMechanism, samples: int | None) -> Reals:
     """Inputs of the rows, in deg or mm."""
-    import numpy as np
-
-    from gearlink.core.base.rows import row_numbers
-    from gearlink.core.numerics.arrays import turn_degrees
-
     if (turns := design.period_turns) is not None:
         return turn_degrees(samples, min(turns, MOST_TURNS))
     asked, count = design.spec.range, samples or _RANGE_ROWS
@@ -244,9 +241,6 @@ def slides(design: PlanarMechanism, samples: int | None = None) -> Table:
 
 def cams(design: PlanarMechanism, samples: int | None = None) -> Table:
     """The profile of every cam about its axis, as it stands in the start position less its phase."""
-    import numpy as np
-
-    from gearlink.core.numerics.arrays import turn_degrees
     from gearlink.core.parts.cams.flat_cam import FlatCam
 
     degrees = turn_degrees(samples)
@@ -283,15 +277,11 @@ def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
 
 def _in_rad(design: PlanarMechanism, rows: Any) -> Reals:
     """Inputs of rows as the motion takes them."""
-    import numpy as np
-
     return np.radians(rows) if design.moving.input.unit == "rad" else np.asarray(rows)
 
 
 def _transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
     """The minimum transmission angle of all dyads."""
-
-    import numpy as np
 
     from gearlink.core.mechanism.motion import Course
 
@@ -304,8 +294,6 @@ def _transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
 
 def _pole(links: Mechanism, name: str) -> Points:
     """Instant centre of a link against the frame, x + i x'/t'; NaN where it does not turn."""
-    import numpy as np
-
     link = links.links[name]
     rate = link.turn.first
     turning = np.abs(rate) > 1e-12

@@ -25,6 +25,7 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
 from gearlink.core.machines.six_bar.spec import LINKS, PINS
 from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
@@ -644,8 +645,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def _rows(self, samples: int | None) -> Reals:
         """Input angles of a table [deg]."""
-        from gearlink.core.base.rows import row_numbers
-
         if self.period_turns is not None:
             return turn_degrees(samples, self.period_turns)
         asked, count = self.spec.range, samples or 180

@@ -7,6 +7,8 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.six_bar.design import GearedSixBar
@@ -63,8 +65,6 @@ class SixBarLoads(LoadsDesign):
     @cached_property
     def _gear_turns(self) -> dict[str, Fraction]:
         """Turns of the free gears while the links come home."""
-        import numpy as np
-
         angles = self.design.course.angles(np.array([0.0, self.design.course.end]))
         gains = [round(float(gain) / (2.0 * math.pi)) for gain in angles[:, 1] - angles[:, 0]]
         links = [Fraction(turns) for turns in (0, self._period_turns, *gains)]

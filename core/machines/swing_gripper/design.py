@@ -28,6 +28,7 @@ from gearlink.core.machines.swing_gripper.codes import (
 )
 from gearlink.core.machines.swing_gripper.motion import Motion, require
 from gearlink.core.numerics.arrays import Points, Reals, product, turn_degrees
+from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.cams.checks import (
@@ -186,8 +187,6 @@ class Passes:
                 yield Pass(body, radius, axis, near.distance, near.turned, by_rocker=True)
 
     def _coupler(self) -> Iterator[Pass]:
-        from gearlink.core.numerics.extremes import extremes_over
-
         total, ends = self.linkage.law.total_swing, kept_last(partial(_coupler_ends, self.linkage))
         wanted = [(lambda swing, place=axis.place: beside_line(place, *ends(swing)), False) for axis in self.axes]
         found = extremes_over(wanted, 0.0, total, samples=_SAMPLES)
@@ -954,8 +953,6 @@ class Closure:
     @cached_property
     def worst_unloading(self) -> tuple[Extreme, ...]:
         """Largest torque that lifts each roller [N m], and the cylinder angle [deg] of it."""
-        from gearlink.core.numerics.extremes import extremes_over
-
         torques, sense = kept_last(self.inertia_torques), self.lift_sense
 
         def lifting(roller: int, theta: Reals) -> Reals:

@@ -8,10 +8,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.machines.swing_gripper.motion import require
+from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
 from gearlink.core.studies.loads.contact import roller_on
 from gearlink.core.studies.loads.design import loads_outline
@@ -92,10 +95,7 @@ class GripperLoads(CamLoadsDesign):
 
     def _spring(self, _mechanism: Mechanism, phi: Reals) -> list[Force | Torque]:
         """The spring presses both rockers to their cams; it turns with them and does no work."""
-        import numpy as np
-
         from gearlink.core.mechanism.dynamics import Torque
-        from gearlink.core.mechanism.joints import NEWTON_METER
 
         if self.spec.spring is None:
             return []

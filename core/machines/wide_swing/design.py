@@ -19,7 +19,7 @@ from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, sa
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
-from gearlink.core.machines.wide_swing import bodies, remedies
+from gearlink.core.machines.wide_swing import bodies, codes, remedies
 from gearlink.core.machines.wide_swing.codes import (
     BALANCING,
     CLOSED_CONTOUR,
@@ -36,6 +36,7 @@ from gearlink.core.machines.wide_swing.codes import (
 )
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
 from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, QUANTITIES, DeviceSize, device_table, names
+from gearlink.core.numerics.extremes import extremes_of_parts, minimum_over, share_of
 from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CAM_UNDERCUT, PRESSURE_ANGLE
@@ -155,8 +156,6 @@ class ParallelShafts:
     @property
     def _roller_gap(self) -> float:
         """Minimum clearance between a roller, over its swing, and the circle of the other cam [mm]."""
-        from gearlink.core.numerics.extremes import minimum_over
-
         half, found = 0.5 * self.design.motion.swing, []
         for number, cam in enumerate(self.cams):
             arm = cmath.rect(cam.rocker_radius, (0.0, self.roller_arm_angle)[number])
@@ -210,8 +209,6 @@ def _outline(cam: ClosedCam, count: int) -> Points:
 
 def cam_clearance(design: WideSwingDesign) -> Iterator[Check]:
     """GL541: two cams on parallel shafts beside each other."""
-    from gearlink.core.machines.wide_swing import codes
-
     if design.section.second is None or not design.has_profile:
         return
     shafts, limit = design.shafts, design.spec.limits.cam_gap
@@ -510,8 +507,6 @@ Places: TypeAlias = SimpleNamespace
 
 def of_motion(design: WideSwingDesign) -> Places:
     """Extremes of the rocker's speed [rad/s] and acceleration [rad/s^2] over the working stroke, cam angles [rad]."""
-    from gearlink.core.numerics.extremes import share_of
-
     motion = design.motion
     law, swing, angle, time = motion.law, motion.swing, motion.cycle_angle, motion.working_time
     curves = {
@@ -540,8 +535,6 @@ def of_curvature(design: WideSwingDesign) -> float | None:
 
 def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extreme:
     """The maximum value over the parts of the stroke in which the roller touches the profile."""
-    from gearlink.core.numerics.extremes import extremes_of_parts
-
     stop = 1e-3 if design.spec.drive is not None else 0.0
     parts = [(max(first, stop), min(last, 1.0 - stop)) for first, last in design.contact_of(design.cam)]
     found = extremes_of_parts([(curve, True)], parts, samples=256)
@@ -1100,8 +1093,6 @@ class WideSwingDesign(Design):
     @cached_property
     def contact_force(self) -> float:
         """Maximum force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
-        from gearlink.core.numerics.extremes import extremes_of_parts
-
         found = []
         for cam in self.cams.values():
             if cam is self.cam or self.has_zone(cam):

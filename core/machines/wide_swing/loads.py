@@ -29,6 +29,7 @@ from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path, strokes_of
+from gearlink.core.mechanism.dynamics import Force, Mass
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
 from gearlink.core.studies import codes
@@ -618,8 +619,6 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """Rocker and slider of their own sections, and what the file gives the others."""
-        from gearlink.core.mechanism.dynamics import Mass
-
         found = super().masses
         unloader = self.spec.unloader
         if unloader.type == "gravity":  # its moment of inertia about its own centre counts in that of the rocker
@@ -854,8 +853,6 @@ class WideSwingLoads(LoadsDesign):
 
 def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:
     """The pull of the device on its pin of the rocker, towards its base pin; of a pendulum its weight."""
-    from gearlink.core.mechanism.dynamics import Force
-
     unloader, unloading = loads.spec.unloader, loads.design.unloading
     way = cmath.rect(1.0, math.radians(loads.section.device_direction or 0.0))
     rocker = mechanism.links["rocker"]

@@ -16,6 +16,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution, in_section
 from gearlink.core.numerics.arrays import Reals, distinct
+from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.laws import Law, law
 
 if TYPE_CHECKING:
@@ -586,7 +587,6 @@ def _turning_places(piece: Piece) -> list[float]:
 
 def _turns_of_law(piece: Piece) -> list[float]:
     """The same of a law with given ends, whose velocity changes its sign there."""
-    from gearlink.core.numerics.roots import roots_on
 
     def velocity(x: float) -> float:
         return float(piece.evaluate(np.array([x]), 1)[1][0])

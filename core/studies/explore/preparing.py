@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import Any
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.studies.explore.base import Base, Refused
 from gearlink.core.studies.explore.order import Variable
@@ -268,8 +269,6 @@ class _Reading:
         return found
 
     def _failing(self, design: Any) -> set[str]:
-        from gearlink.core.base.errors import NoSolution
-
         try:
             outline = design.outline(self.base.command)
             return {check.code for name in outline.checks for check in design.check(name) if check.status == "fail"}

@@ -7,9 +7,13 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
+from gearlink.core.mechanism.joints import NEWTON_METER
+from gearlink.core.numerics.arrays import turn_degrees
 from gearlink.core.studies.codes import CONTACT_LOSS, CONTACT_PRESSURE, LOAD_REVERSAL, PRELOAD, ROLLER_SKID
 from gearlink.core.studies.loads.checks import listed, load_reversal
 from gearlink.core.studies.loads.design import LoadsDesign
@@ -51,10 +55,6 @@ _RPM = 2.0 * math.pi / 60.0
 
 def contact_table(design: CamLoadsDesign, samples: int | None = None) -> Table:
     """Force, pressure, relative radius, roller speed and entrainment of each roller over the input angle."""
-    import numpy as np
-
-    from gearlink.core.numerics.arrays import turn_degrees
-
     degrees = turn_degrees(samples, design.turns)
     phi = np.radians(degrees)
     columns: dict[str, tuple[Any, str]] = {"cam_angle": (design.cam_degrees(phi), "deg")}
@@ -116,20 +116,14 @@ class CamLoadsDesign(LoadsDesign):
 
     def cam_speed(self, phi: Reals) -> Reals:
         """Magnitude of the speed of the cam [rad/s]; the input's where the cam turns with it."""
-        import numpy as np
-
         return np.full_like(phi, self.speed)
 
     def cam_acceleration(self, phi: Reals) -> Reals:
         """Its derivative by time [rad/s^2]."""
-        import numpy as np
-
         return np.zeros_like(phi)
 
     def cam_degrees(self, phi: Reals) -> Reals:
         """Cam angle at input angles [deg]; the input's where the cam turns with it."""
-        import numpy as np
-
         return np.degrees(phi)
 
     @property
@@ -195,16 +189,12 @@ class CamLoadsDesign(LoadsDesign):
 
     def _where_pressed(self, name: str, phi: Reals, what: str) -> Reals:
         """Pressure or depth of a roller that is pressed; 0 where it is not."""
-        import numpy as np
-
         contact = self.contact(name, phi)
         assert contact is not None, "needed only with a width"
         return np.where(contact.force > 0.0, getattr(contact, what), 0.0)
 
     def _radius(self, name: str, phi: Reals) -> Reals:
         """Relative radius of a roller that is pressed [mm]; its own where it is not, by which no minimum is found."""
-        import numpy as np
-
         roller = self.roller_on_cam(name, phi)
         return np.where(self.contact_force(name, phi) > 0.0, roller.relative_radius, roller.radius)
 
@@ -285,10 +275,6 @@ class CamLoadsDesign(LoadsDesign):
     def traction(self, name: str, phi: Reals) -> Reals:
         """Share of the contact force that drives a roller round that stays on its cam, |J_r dw/dt| and its bearing's
         moment."""
-        import numpy as np
-
-        from gearlink.core.mechanism.joints import NEWTON_METER
-
         roller = self.section.roller
         need = roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment
         push = need * NEWTON_METER / self.roller_on_cam(name, phi).radius
@@ -361,8 +347,6 @@ class CamLoadsDesign(LoadsDesign):
         if self.on_two_sides:
             return
         for name, (low, _) in zip(self.own_rollers, self.force_extremes, strict=True):
-            import numpy as np
-
             mean = self.machine.mean(lambda phi, name=name: np.abs(self.contact_force(name, phi)))  # type: ignore[misc]
             status: Status = "fail" if low.value < 0.0 else "warn" if low.value < _LEAST_SHARE * mean else "pass"
             yield CONTACT_LOSS.check(

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
+import numpy as np
+
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.base.nomenclature import term
@@ -15,6 +17,8 @@ from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import Quantity, without_noise
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec_paths import number_at
+from gearlink.core.mechanism.joints import Guide, Pin, Toothed
+from gearlink.core.numerics.arrays import BLOCK, turn_degrees
 from gearlink.core.studies.loads import checks, tables
 from gearlink.core.studies.loads.checks import VIBRATION_CHECKS, residual_vibration, resonance, rigid_model
 from gearlink.core.studies.loads.names import (
@@ -232,7 +236,6 @@ class LoadsDesign(Design):
         """Coefficients of friction, where the file gives any."""
         if (given := self.section.friction) is None:
             return None
-        from gearlink.core.mechanism.joints import Guide, Pin, Toothed
         from gearlink.core.studies.loads.sources import coefficients_of
 
         self._require_joints("friction.joints", given.joints, Pin, Guide, *Toothed)
@@ -246,8 +249,6 @@ class LoadsDesign(Design):
     @cached_property
     def _connections(self) -> Sequence[Connection]:
         """What joins the links."""
-        import numpy as np
-
         return self.moving.at(np.zeros(1), 1).connections
 
     def _require_joints(self, section: str, names: Iterable[str], *sorts: type) -> None:
@@ -577,10 +578,6 @@ class LoadsDesign(Design):
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles [rad] of a table's rows, and its first columns."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples, min(self.turns, MOST_TURNS))
         return np.radians(degrees), {"input_angle": (degrees, "deg")}
 
@@ -592,10 +589,6 @@ class LoadsDesign(Design):
             Where the parts of the torque cancel to a millionth, as those of an unbalanced wheel that turns evenly, a
             millionth of the parts takes its place: both ways round at 1e-16 of them.
         """
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import BLOCK
-
         machine, apart, sizes = self.machine, [0.0], [0.0]
         phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
         if machine.friction is not None and machine.locks:
@@ -719,8 +712,6 @@ class LoadsDesign(Design):
         Notes
             0 above 10000 a revolution: even where the acceleration jumps, it has fallen below 1e-3 there.
         """
-        import numpy as np
-
         from gearlink.core.studies.loads.vibration import harmonics
 
         seen = [order for order in orders if order <= _HIGHEST * self.turns]
@@ -737,8 +728,6 @@ class LoadsDesign(Design):
 
     @cached_property
     def _names(self) -> tuple[str, ...]:
-        import numpy as np
-
         return tuple(each.name for each in self.machine.at(np.zeros(1)).connections)
 
     def pin(self, name: str) -> Any:
@@ -752,7 +741,6 @@ class LoadsDesign(Design):
     @cached_property
     def pins_found(self) -> dict[str, Any]:
         """The pins of this design, by name."""
-        from gearlink.core.mechanism.joints import Pin
         from gearlink.core.studies.loads.joints import PinLoad
 
         bearings = self.section.bearings
@@ -781,7 +769,6 @@ class LoadsDesign(Design):
     @cached_property
     def meshes_found(self) -> dict[str, Any]:
         """The meshes of this design, by name."""
-        from gearlink.core.mechanism.joints import Toothed
         from gearlink.core.studies.loads.joints import MeshLoad
 
         if isinstance(self.section.backlash, dict):

@@ -6,7 +6,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.cli.views.figures.drawing import failing, panels, style, time_axes
+from gearlink.cli.views.scenes.linkages import builder, moves
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,8 +61,6 @@ def sheet(
 
 def scene_of(design: Any) -> Any:
     """The builder of a design's scene; None where the kind has none, or draws what clashes itself."""
-    from gearlink.cli.views.scenes.linkages import builder, moves
-
     return builder(design.kind) if moves(design.kind) and design.kind != "three-gear-four-bar" else None
 
 
@@ -111,8 +112,6 @@ def over_turn(design: Any, name: str, gain: float = 0.0) -> tuple[Any, Any]:
 
 def closed(values: Any, gain: float = 0.0) -> Any:
     """A column with its first value, and what a revolution adds, put at the end."""
-    import numpy as np
-
     data = np.asarray(values, dtype=float)
     return np.append(data, data[0] + gain)
 

@@ -6,7 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.cli.views.figures.drawing import panels, style
+from gearlink.cli.views.figures.drawing.panels import without_numbers
+from gearlink.cli.views.scenes.shown import speed_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,8 +32,6 @@ _UNITS_OF_A_TURN = {
 
 def turn_time(design: Any) -> float | None:
     """Time of an input turn of a design [ms]; None where its speed is not known."""
-    from gearlink.cli.views.scenes.shown import speed_of
-
     found: float | None = getattr(design, "turn_time", None)
     if found is None and (speed := speed_of(design)):
         found = 2e3 * math.pi / abs(speed)
@@ -83,7 +85,6 @@ def in_uneven_ms(axes: Axes, degrees: Any, times: Any) -> None:
 
     degrees, times : (N,) arrays [deg], [ms] - both rising
     """
-    import numpy as np
 
     def to_ms(values: Any) -> Any:
         return np.interp(values, degrees, times)
@@ -109,8 +110,6 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
 
     turn : time of an input turn [ms]; None where the speed is not known
     """
-    from gearlink.cli.views.figures.drawing.panels import without_numbers
-
     labels = [axes.get_xlabel() for axes in stacked]
     for axes, words, below in zip(stacked, labels, [*labels[1:], ""], strict=False):
         if words == below:
