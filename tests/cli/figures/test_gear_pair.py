@@ -189,6 +189,7 @@ def test_the_nearest_limits_are_named_within_the_plot() -> None:
     assert all(plot.x0 <= box.x0 and box.x1 <= plot.x1 for box in boxes)
 
 
+@pytest.mark.slow
 def test_a_gear_that_is_a_dot_beside_its_mate_is_magnified():
     """Of 12 teeth against 300 nothing was to be seen but the pivot."""
     made, figure = sheet("gear_pair", "gear", teeth=[12, 300], load=None)
