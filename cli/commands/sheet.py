@@ -212,7 +212,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         if name not in _ALIKE and place:
             found[name] = lambda place=place: load(place)(design)  # type: ignore[misc]
     cams = cam_sheets.discs(design)
-    if cams:
+    if cams and cams[0].roller_radius:
         found["pressure"] = lambda: cam_sheets.pressure(design)
         found["contact"] = lambda: motion_sheet.contact(design)
     if scale is not None:

@@ -335,7 +335,7 @@ KINDS: dict[str, Kind] = {
             parts=("main_cam", "return_cam", "groove_inner", "groove_outer", "cutter"),
             sheets={
                 "pressure": "cli.views.figures.sheets.cam_sheets:follower_discs",
-                "drawing": "cli.views.figures.sheets.cam_sheets:follower_discs",
+                "drawing": "cli.views.figures.sheets.cam_sheets:drawn_discs",
             },
             worked="lift_cam",
         ),

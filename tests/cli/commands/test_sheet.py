@@ -329,3 +329,25 @@ def test_an_input_beyond_a_revolution_is_drawn_within_it() -> None:
     assert one.get_title(loc="left") == other.get_title(loc="left")
     for a, b in zip(one.lines, other.lines, strict=True):
         np.testing.assert_allclose(a.get_xydata(), b.get_xydata(), rtol=0.0, atol=1e-9)
+
+
+def test_a_cam_under_a_flat_face_is_drawn_with_its_own_radii() -> None:
+    """Of an eccentric of 6 mm, a circle: the radii by the law of cosines, and a face that touches it."""
+    turn = {"to": 180, "lift": 12, "law": "simple-harmonic"}
+    given = {
+        "kind": "disc-cam", "speed": 60, "motion": [turn, {"to": 360, "lift": 0, "law": "simple-harmonic"}],
+        "follower": {"type": "translating-flat"}, "cam": {"sense": 1, "base_radius": 40},
+    }  # fmt: skip
+    made = design(given)
+    assert [name for name in sheets_of(made) if name not in ("motion", "vectors", "dwell")] == ["drawing-1"]
+    (cam,) = cam_sheets.discs(made)
+    away = np.radians(np.arange(360.0))
+    # The mark is where the circle is nearest to the axis: 46 mm about a centre 6 mm behind it.
+    radii = -6.0 * np.cos(away) + np.sqrt(46.0**2 - (6.0 * np.sin(away)) ** 2)
+    assert cam_sheets.pitch_radii(cam) == pytest.approx(radii, abs=1e-6)
+    words = " ".join(true_size.notes(made, cam))
+    assert "Flat-faced follower" in words
+    assert "radius of the profile [mm]" in words
+    face, point = cam.face(), complex(cam.points(np.zeros(1))[0][0])
+    assert 0.5 * (face[0] + face[1]) == pytest.approx(point, abs=1e-12)
+    assert cam.points(np.linspace(0.0, 2.0 * math.pi, 721))[0].imag.max() <= 40.0 + 1e-9  # all below the face

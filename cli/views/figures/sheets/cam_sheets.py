@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.parts.cams.flat_cam import FlatCam
+
 _TURN = 2.0 * math.pi
 # DIN 6885-1: bore above, width of the keyway, depth in the hub [mm].
 _KEYWAYS = (
@@ -40,6 +43,32 @@ def press_discs(design: Any) -> tuple[DiscCam, ...]:
 def gripper_discs(design: Any) -> tuple[DiscCam, ...]:
     """The cams of a gripper, and that of its fingers in the frame of the arm."""
     return tuple(design.discs)
+
+
+class UnderFace:
+    """A cam under a flat face, as the drawings read a cam: its pitch curve is the profile, of a roller of radius 0."""
+
+    roller_radius = 0.0
+
+    def __init__(self, cam: FlatCam) -> None:
+        self.cam, self.name, self.sense = cam, cam.name, cam.sense
+        self.min_radius, self.max_radius = cam.min_radius, cam.max_radius
+        self.min_curvature_radius = cam.min_curvature_radius
+
+    def points(self, cam_angle: Reals) -> tuple[Points, Points]:
+        """Points of the profile [mm], twice."""
+        found = self.cam.points(cam_angle)[0]
+        return found, found
+
+    def face(self) -> Points:
+        """Ends of the stretch of the face at cam angle 0 that is drawn [mm]."""
+        point, normal = (complex(part[0]) for part in self.cam.points(np.zeros(1)))
+        return point + 0.5j * self.max_radius * normal * np.array([-1.0, 1.0])
+
+
+def drawn_discs(design: Any) -> tuple[Any, ...]:
+    """The cams that the workshop makes for a follower."""
+    return (UnderFace(design.cams.flat),) if design.spec.is_flat else follower_discs(design)
 
 
 def follower_discs(design: Any) -> tuple[DiscCam, ...]:
@@ -141,7 +170,7 @@ def bore(radius: float, way: complex) -> Any:
 
 
 def pitch_radii(cam: DiscCam) -> Any:
-    """Radius of the pitch curve [mm] at each whole degree on the cam, from the start mark, counter-clockwise.
+    """Radius of the pitch curve or flat-faced profile [mm] at each degree on the cam from the mark, counter-clockwise.
 
     Notes
         Interpolated between 72,000 points of the curve, 2e-7 mm off at a bend of 1/mm.

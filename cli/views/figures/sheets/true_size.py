@@ -74,7 +74,8 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     axes.set_xlim(left, left + width * scale.reduction)
     axes.set_ylim(bottom, bottom + height * scale.reduction)
     axes.plot(profile.real, profile.imag, color=style.BLACK, linewidth=0.7, gid="profile")
-    axes.plot(pitch.real, pitch.imag, color=style.GREY, linewidth=0.35, linestyle=style.DASHED, gid="pitch curve")
+    if cam.roller_radius:
+        axes.plot(pitch.real, pitch.imag, color=style.GREY, linewidth=0.35, linestyle=style.DASHED, gid="pitch curve")
     for curve in axes.lines:
         curve.get_path().should_simplify = False  # which would leave out points within a tenth of a point
     for way in (1.0, 1j):
@@ -89,7 +90,8 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     start = complex(middle.real - 0.5 * _BAR * scale.reduction, low.imag - 7.0 * scale.reduction)
     ends = [start.real, start.real + _BAR * scale.reduction]
     axes.plot(ends, [start.imag] * 2, color=style.BLACK, linewidth=1.0, gid="bar")
-    words = "this bar is 100 mm long on paper; start mark: roller here at cam angle 0"
+    what = "roller" if cam.roller_radius else "contact"
+    words = f"this bar is 100 mm long on paper; start mark: {what} here at cam angle 0"
     axes.text(start.real, start.imag - 1.5 * scale.reduction, words, fontsize=6, va="top")
     title = f"{design.spec.name}: {cam.name}, scale {scale.words}"
     axes.text(middle.real, high.imag + 2.0 * scale.reduction, title, fontsize=9, fontweight="bold", ha="center")
@@ -294,11 +296,12 @@ def fitted(cam: DiscCam) -> tuple[Page, float]:
     return large[0] if large and small[1] < min(1.0, large[0][1]) else small
 
 
-def _reach(cam: DiscCam) -> tuple[complex, complex]:
+def _reach(cam: Any) -> tuple[complex, complex]:
     """Lower left and upper right corner of what is drawn [mm]."""
     pitch, profile = cam.points(np.linspace(0.0, _TURN, 721))
     roller, radius = complex(pitch[0]), cam.roller_radius
-    every = np.concatenate([pitch, profile, roller + radius * np.array([1, -1, 1j, -1j])])
+    beside = roller + radius * np.array([1, -1, 1j, -1j]) if radius else cam.face()
+    every = np.concatenate([pitch, profile, beside])
     return complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())
 
 
@@ -325,9 +328,10 @@ def _view(axes: Axes, page: Page, cam: DiscCam, scale: float, shaft: float) -> N
     theta = np.linspace(0.0, _TURN, 7201)
     pitch, profile = cam.points(theta)
     _line(axes, axis + scale * profile, 0.5, gid="profile")
-    _line(axes, axis + scale * pitch, 0.25, linestyle=style.CHAIN, gid="pitch curve")
-    roller = complex(pitch[0])
-    _line(axes, axis + scale * (roller + cam.roller_radius * np.exp(1j * theta[::20])), 0.25, linestyle=style.DASHED)
+    roller, touching = complex(pitch[0]), _follower(cam)
+    if cam.roller_radius:
+        _line(axes, axis + scale * pitch, 0.25, linestyle=style.CHAIN, gid="pitch curve")
+    _line(axes, axis + scale * touching, 0.25, linestyle=style.DASHED)
     for way, ends in ((1.0, np.array([low.real, high.real])), (1j, np.array([low.imag, high.imag]))):
         _line(
             axes, axis + way * (scale * ends + _PAST * np.array([-1.0, 1.0])), 0.18, linestyle=style.CHAIN, gid="axis"
@@ -344,6 +348,13 @@ def _view(axes: Axes, page: Page, cam: DiscCam, scale: float, shaft: float) -> N
     _arrow(axes, complex(turning[-2]), complex(turning[-1]))
 
 
+def _follower(cam: Any) -> Any:
+    """The roller or the face at cam angle 0 [mm]."""
+    if not cam.roller_radius:
+        return cam.face()
+    return complex(cam.points(np.zeros(1))[0][0]) + cam.roller_radius * np.exp(1j * np.linspace(0.0, _TURN, 361))
+
+
 def _arrow(axes: Axes, start: complex, end: complex) -> None:
     shape = {"arrowstyle": "-|>", "color": style.BLACK, "linewidth": 0.7, "shrinkA": 0, "shrinkB": 0,
              "mutation_scale": 8}  # fmt: skip
@@ -351,7 +362,7 @@ def _arrow(axes: Axes, start: complex, end: complex) -> None:
 
 
 def is_cut(cam: DiscCam) -> bool:
-    """Whether the roller cuts into the profile somewhere."""
+    """Whether the roller cuts into the profile somewhere, or the profile under a face is undercut."""
     return bool(cam.min_curvature_radius.value <= cam.roller_radius)
 
 
@@ -369,7 +380,8 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
         _text(axes, at, f"R{radius:.3f}", ha="center", path_effects=style.outlined())
     roller = complex(cam.points(np.zeros(1))[0][0])
     at = axis + scale * roller
-    _text(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center", path_effects=style.outlined())
+    if cam.roller_radius:
+        _text(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center", path_effects=style.outlined())
     if shaft > 0.0:
         slot = cam_sheets.keyway(2.0 * shaft)
         key = f"\nkeyway {slot[0]:g} P9, {2.0 * shaft + slot[1]:g} over bore" if slot else ""
@@ -386,14 +398,18 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
 def notes(design: Any, cam: DiscCam) -> list[str]:
     """What the outline does not say: sense of rotation, roller, what of the file is a tolerance."""
     sized = [str(line) for line in _tolerances(design)]
+    rolls = bool(cam.roller_radius)
+    follower = f"Roller ⌀{2.0 * cam.roller_radius:g} mm" if rolls else "Flat-faced follower"
     return [
-        f"Cam turns {'counter-' if cam.sense > 0 else ''}clockwise. Roller ⌀{2.0 * cam.roller_radius:g} mm. "
-        "Start mark (red): roller at cam angle 0.",
-        f"Smallest convex radius of the pitch curve {_number(cam.min_curvature_radius.value)} mm; the profile is the "
-        f"envelope of the roller{', undercut' if is_cut(cam) else ''}.",
+        f"Cam turns {'counter-' if cam.sense > 0 else ''}clockwise. {follower}. "
+        f"Start mark (red): {'roller' if rolls else 'contact'} at cam angle 0.",
+        f"Smallest convex radius of the {'pitch curve' if rolls else 'profile'} "
+        f"{_number(cam.min_curvature_radius.value)} mm; the profile is the "
+        f"envelope of the {'roller' if rolls else 'face'}{', undercut' if is_cut(cam) else ''}.",
         "Tolerances of the file: " + "; ".join(sized) if sized else
         "The file has no tolerances of the cam: profile tolerance and roughness as agreed.",
-        "Table: radius of the roller's centre [mm] over the angle on the cam [deg], counter-clockwise from the mark.",
+        f"Table: radius of the {'centre of the roller' if rolls else 'profile'} [mm] over the angle on the cam [deg], "
+        "counter-clockwise from the mark.",
     ]  # fmt: skip
 
 
