@@ -12,14 +12,13 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.design_file import diagnose_no_solution, load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
-from gearlink.core.base.design import UnknownName
+from gearlink.core.base.design import Design, UnknownName
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kind import FileDesigns, Kind
 from gearlink.core.base.kinds import FILES, STUDY
 from gearlink.core.base.wording import first_of
 
 if TYPE_CHECKING:
-    from gearlink.core.base.design import Design
     from gearlink.core.base.report import Check, Report
     from gearlink.core.studies.study.faults import WrongStudy
 

@@ -15,7 +15,7 @@ from gearlink.cli.evaluate import require_command
 from gearlink.cli.reading.design_file import load as load_file
 from gearlink.cli.reading.design_file import parse, read_kind, validate, with_overrides
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.core.base.design import UnknownName
+from gearlink.core.base.design import Design, UnknownName
 from gearlink.core.base.errors import GearlinkError, NoSolution, named
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
@@ -23,7 +23,6 @@ from gearlink.core.base.kinds import KINDS
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gearlink.core.base.design import Design
     from gearlink.core.base.report import Quantity
 
     class Shown(Quantity):

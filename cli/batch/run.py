@@ -40,13 +40,12 @@ from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import by_kind, design_files, files_read
 from gearlink.cli.render.csv_report import table_rows, write_rows
 from gearlink.cli.render.json_report import as_json
-from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.kind import FileDesigns, Kind
 from gearlink.core.base.report import Remedy, Report
 from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
-    from gearlink.core.base.kind import Kind
 
 
 def write_results(source: Path, design: Design, report: Report, options: BatchOptions) -> tuple[str, ...]:

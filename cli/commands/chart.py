@@ -20,7 +20,7 @@ from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.render.lists import listed
-from gearlink.cli.views.figures.chart_list import CHARTS, OF_FILES, DesignChart, Marked
+from gearlink.cli.views.figures.chart_list import CHARTS, OF_FILES, Axis, DesignChart, Marked
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.write import save
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.cli.views.figures.chart_list import Axis
-    from gearlink.core.base.report import Table
     from gearlink.core.machines.three_gear.design import ThreeGearFourBar
     from gearlink.core.parts.cams.shaped_design import Vibration
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, refused_sections
 from gearlink.cli.exit_codes import ExitCode
@@ -21,15 +21,10 @@ from gearlink.cli.reading.places import by_kind, design_files
 from gearlink.cli.render.errors import fitted, show_refusal
 from gearlink.cli.render.json_report import FORMAT, plain_check
 from gearlink.cli.texts.codes import key_of
-from gearlink.core.base.design import Outline
-from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.kind import FileDesigns, Kind
 from gearlink.core.base.report import Check
 from gearlink.core.base.wording import amount
-
-if TYPE_CHECKING:
-    from gearlink.core.base.design import Design
-    from gearlink.core.base.kind import Kind
-
 
 _STATUS = {"pass": ExitCode.OK, "warn": ExitCode.OK, "fail": ExitCode.FINDING, "error": ExitCode.WRONG_INPUT}
 

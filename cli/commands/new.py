@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
-from gearlink.cli.texts.schema import index, spec_keys, worked_design
+from gearlink.cli.texts.schema import SpecKey, index, spec_keys, worked_design
 from gearlink.core.base.kinds import FILES, KINDS
 from gearlink.core.base.spec_paths import part_at
 
 if TYPE_CHECKING:
-    from gearlink.cli.texts.schema import SpecKey
     from gearlink.core.base.kind import Kind
 
 

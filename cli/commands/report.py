@@ -22,13 +22,12 @@ from gearlink.cli.quiet import without_notes
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import GearlinkError, NoSolution
-from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.kind import FileDesigns, Kind
 
 if TYPE_CHECKING:
     from gearlink.cli.commands.diff import Difference
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
-    from gearlink.core.base.kind import Kind
     from gearlink.core.base.report import Report
 
     Part = tuple[Design, Report]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import require_free, stem_of, write_atomically
-from gearlink.cli.options import STREAM
+from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.design_file import parse, validate
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from gearlink.cli.commands.suggest import Change
-    from gearlink.cli.options import Options
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
     from gearlink.core.base.kind import Kind

@@ -15,7 +15,7 @@ from gearlink.cli.reading.design_file import parse, read_kind
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.studio.text import with_value
 from gearlink.core.base.errors import GearlinkError, NoSolution
-from gearlink.core.base.key_results import key_results
+from gearlink.core.base.key_results import KeyResult, key_results
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from gearlink.cli.views.scenes.scene import Scene
     from gearlink.cli.views.scenes.shown import Wish
     from gearlink.core.base.design import Design
-    from gearlink.core.base.key_results import KeyResult
     from gearlink.core.base.report import Check
 
 

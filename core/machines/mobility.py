@@ -6,21 +6,17 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, count, islice, pairwise
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key
-from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import Check, Remedy, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import DesignSpec, Length, Spec, Teeth
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.linkages.codes import MOBILITY, TRAIN_FIT
-
-if TYPE_CHECKING:
-    from gearlink.core.base.report import Remedy
-
 
 Name = Annotated[str, Field(min_length=1, max_length=40)]
 

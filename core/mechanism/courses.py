@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.report import Table
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.mechanism.motion import Course, Motion
-from gearlink.core.numerics.arrays import Reals, turn_degrees
-
-if TYPE_CHECKING:
-    from gearlink.core.numerics.arrays import Points
+from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 
 _RATES = ("speed", "acceleration", "jerk")
 

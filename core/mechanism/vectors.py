@@ -14,11 +14,10 @@ import numpy as np
 
 from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.mechanism.joints import Contact, Coupling, Guide, Pin, SharedContact, meshes_of
-from gearlink.core.mechanism.links import FRAME
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.dynamics import Reactions
-    from gearlink.core.mechanism.links import Link, Mechanism
     from gearlink.core.mechanism.rates import Point
     from gearlink.core.numerics.arrays import Points, Reals
 

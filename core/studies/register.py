@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
+from typing import Any, ClassVar, Protocol, TypeAlias
 
 import numpy as np
 
@@ -22,22 +22,17 @@ from gearlink.core.base.wording import short
 from gearlink.core.mechanism.dual import Chain, Dual, Shift
 from gearlink.core.mechanism.joints import Contact, Flank, Pin, SharedContact, Toothed
 from gearlink.core.mechanism.links import Mechanism
-from gearlink.core.mechanism.motion import Course
+from gearlink.core.mechanism.motion import Course, Motion
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.numerics.roots_sweep import zeros
 from gearlink.core.studies.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
-from gearlink.core.studies.movable import Errors
+from gearlink.core.studies.movable import Errors, Movable
 from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted
 from gearlink.core.studies.tolerance.correlation import coordinate_root, of_sizes, together
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import is_shared, of_replications, replication, rounded_up
 from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
 from gearlink.core.studies.tolerance.spec import Register, Tolerance
-
-if TYPE_CHECKING:
-    from gearlink.core.mechanism.motion import Motion
-    from gearlink.core.studies.movable import Movable
-
 
 Off: TypeAlias = Mapping[str, Any] | None
 """Errors by source, of those on which the output depends beside the links."""

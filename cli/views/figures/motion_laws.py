@@ -12,6 +12,7 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.core.parts.cams.law_tables import MotionLaws
+from gearlink.core.parts.cams.laws import Law
 from gearlink.core.parts.cams.laws import law as law_of
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
     from gearlink.cli.options import Options
     from gearlink.core.machines.motion_law import MotionLawDesign
-    from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.shaped_design import Vibration
 
 _HEADINGS = {

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style, time_axes
-from gearlink.core.studies.tolerance.budget import at_worst
+from gearlink.core.studies.tolerance.budget import Budget, Row, at_worst
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from gearlink.core.studies.register import RegisterDesign
-    from gearlink.core.studies.tolerance.budget import Budget, Row
 
 _LINES = ("-", style.DASHED)
 _BAR = 0.025

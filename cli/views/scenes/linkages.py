@@ -20,6 +20,7 @@ from gearlink.cli.views.scenes.scene import (
     Points,
     Readout,
     Reals,
+    Scene,
     letters,
     loop,
 )
@@ -27,7 +28,6 @@ from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import FILES, KINDS
 
 if TYPE_CHECKING:
-    from gearlink.cli.views.scenes.scene import Scene
     from gearlink.core.base.design import Design
     from gearlink.core.mechanism.motion import Motion
 

@@ -27,10 +27,9 @@ from gearlink.cli.views.scenes.scene import (
     pale,
 )
 from gearlink.core.mechanism.joints import Contact, Guide, Mesh, Pin, Rack
-from gearlink.core.mechanism.links import FRAME
+from gearlink.core.mechanism.links import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Course, Input
 
 _COLORS = (BLUE, GREEN, PURPLE, ORANGE)

@@ -48,12 +48,11 @@ from gearlink.core.base.errors import GearlinkError, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism import vectors
 from gearlink.core.mechanism.joints import Pin
-from gearlink.core.mechanism.links import FRAME
+from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Table
-    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Input, Motion
     from gearlink.core.numerics.arrays import Mask
     from gearlink.core.studies.clearance import Clearance, Layout

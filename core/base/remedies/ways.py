@@ -7,12 +7,11 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Remedy
+from gearlink.core.base.report import Check, Remedy
 from gearlink.core.base.spec_paths import number_at, numbers_at, step_of, unit_at
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
-    from gearlink.core.base.report import Check
 
 _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS, _FINE = 3.0, 30, 200

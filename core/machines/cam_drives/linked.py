@@ -19,12 +19,11 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, fixed, standing, steady
-from gearlink.core.numerics.arrays import turn_degrees
+from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.spec import LinkedCamsSpec
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
 

@@ -13,12 +13,11 @@ from gearlink.core.mechanism.joints import NEWTON_METER, Act, Connection, Contac
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, steady
-from gearlink.core.numerics.arrays import units
+from gearlink.core.numerics.arrays import Points, Reals, units
 from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.cycloidal.design import CycloidalReducer
-    from gearlink.core.numerics.arrays import Points, Reals
 
 
 def motion(design: CycloidalReducer) -> Motion:

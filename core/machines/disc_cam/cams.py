@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,15 @@ from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Table, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, within
-from gearlink.core.machines.disc_cam.spec import ROLLER_SHARE, OscillatingFlat, OscillatingRoller, TranslatingRoller
+from gearlink.core.machines.disc_cam.spec import (
+    ROLLER_SHARE,
+    CamBody,
+    DiscCamSpec,
+    OscillatingFlat,
+    OscillatingRoller,
+    ReturnRoller,
+    TranslatingRoller,
+)
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
 from gearlink.core.parts.cams import profile
@@ -36,10 +44,6 @@ from gearlink.core.parts.cams.size import (
     smallest_cam_of_rollers,
     wedge,
 )
-
-if TYPE_CHECKING:
-    from gearlink.core.machines.disc_cam.spec import CamBody, DiscCamSpec, ReturnRoller
-
 
 DEGREE = math.pi / 180.0
 _WIDEST = 50.0  # of the arm and the distance of a rocker: how far a search of its base radius goes

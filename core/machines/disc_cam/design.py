@@ -28,15 +28,13 @@ from gearlink.core.parts.cams.codes import (
     OUTER_WALL,
     PRESSURE_ANGLE,
 )
-from gearlink.core.parts.cams.disc_cam import SAMPLES
+from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.disc_cam.cams import FollowerCams, Making
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
-    from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.flat_cam import FlatCam
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
 

@@ -11,22 +11,20 @@ from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.disc_cam.design import DiscCamDesign
+from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign
 from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign, contact_table
 from gearlink.core.studies.loads.contact import positive_drive, roller_on
-from gearlink.core.studies.loads.design import loads_outline
+from gearlink.core.studies.loads.design import Wanted, loads_outline
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from gearlink.core.machines.disc_cam.design import Closing
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
-    from gearlink.core.studies.loads.design import Wanted
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.spec import CamLoads
 

@@ -44,7 +44,6 @@ from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
-    from gearlink.core.mechanism.rates import Turn
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.studies.movable import Movable
 

@@ -52,7 +52,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.guidance import Guidance
     from gearlink.core.machines.five_bar.spec import GearedFiveBarSpec
     from gearlink.core.numerics.extremes import Extreme
-    from gearlink.core.parts.linkages.functions import Wanted
 
 
 def layout_of_bodies(design: GearedFiveBar) -> Layout:

@@ -28,14 +28,14 @@ from gearlink.core.base.remedies.ways import (
     up,
     wider,
 )
-from gearlink.core.base.report import Check, Rule, Shown, Status, Table, safely_above, safely_below
+from gearlink.core.base.report import Check, Remedy, Rule, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.machines.flatbed_press.codes import RACK_LENGTH, REGISTER, SYNC_LENGTH, SYNC_SPEED
-from gearlink.core.machines.flatbed_press.compensation import Compensation, turns_back
+from gearlink.core.machines.flatbed_press.compensation import Compensation, Joint, turns_back
 from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.numerics.roots import bracketed_root
@@ -50,7 +50,7 @@ from gearlink.core.parts.cams.checks import (
 )
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CONSTANT_SUM, LARGER, VELOCITY_STEP
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
-from gearlink.core.parts.cams.laws import law
+from gearlink.core.parts.cams.laws import Law, law
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws, is_shaped
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.parts.gears.codes import AT_LIMITS
@@ -68,13 +68,10 @@ from gearlink.core.parts.linkages.slider_crank import (
 from gearlink.core.studies.clearance import LEAST_SHAFT_MODULES
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Remedy
-    from gearlink.core.machines.flatbed_press.compensation import Joint
     from gearlink.core.machines.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam
     from gearlink.core.mechanism.motion import Course
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
-    from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.profile import RollerPath
     from gearlink.core.parts.cams.shaped import Phase
     from gearlink.core.parts.gears.data import GearData

@@ -16,9 +16,9 @@ from gearlink.core.machines.flatbed_press import mechanism
 from gearlink.core.machines.flatbed_press.codes import PLACE
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
 from gearlink.core.mechanism.joints import Pin, Rack
-from gearlink.core.mechanism.rates import from_start
+from gearlink.core.mechanism.rates import Turn, from_start
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
-from gearlink.core.studies.loads.design import loads_outline
+from gearlink.core.studies.loads.design import Wanted, loads_outline
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -26,10 +26,8 @@ if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.loads_spec import PressLoads as Section
     from gearlink.core.machines.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.mechanism.motion import Motion
-    from gearlink.core.mechanism.rates import Turn
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.studies.loads.contact import RollerOnCam
-    from gearlink.core.studies.loads.design import Wanted
 
 
 PLACE_CHECKS = PLACE.checks

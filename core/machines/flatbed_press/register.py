@@ -21,11 +21,11 @@ from gearlink.core.machines.flatbed_press.chains import difference
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
 from gearlink.core.machines.flatbed_press.mechanism import bare
 from gearlink.core.mechanism.dual import Shift
-from gearlink.core.mechanism.joints import Coupling, Mesh, Rack
+from gearlink.core.mechanism.joints import Connection, Coupling, Mesh, Rack
 from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.standstills import zeros_over_turn
-from gearlink.core.studies.register import RegisterDesign, no_such_place
+from gearlink.core.studies.register import Off, Output, RegisterDesign, no_such_place
 from gearlink.core.studies.tolerance.budget import Contribution
 from gearlink.core.studies.tolerance.sources import Parts
 
@@ -33,10 +33,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from gearlink.core.machines.flatbed_press.spec import FlatbedPressSpec
-    from gearlink.core.mechanism.joints import Connection
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.studies.movable import Errors
-    from gearlink.core.studies.register import Off, Output
 
 
 _CHAINS = {"bed": ("gear2", "BC", "CDE"), "cylinder": ("gear1", "HM", "MN")}

@@ -14,13 +14,12 @@ from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec import Deferred, DesignSpec, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
 from gearlink.core.base.spec_paths import put
 from gearlink.core.base.wording import amount
-from gearlink.core.machines.machine.relations import NotARelation, parse
+from gearlink.core.machines.machine.relations import NotARelation, Relation, parse
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from gearlink.core.base.kind import Kind
-    from gearlink.core.machines.machine.relations import Relation
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 AboveZero = Annotated[float, Field(gt=0, le=1e12)]

@@ -30,6 +30,7 @@ from gearlink.core.machines.machine.relations import (
     Moment,
     Named,
     NotARelation,
+    Relation,
     Value,
     Within,
     moment_of,
@@ -38,7 +39,6 @@ from gearlink.core.mechanism.motion import TURN, Course
 from gearlink.core.numerics.roots import bracketed_root
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.machine.relations import Relation
     from gearlink.core.machines.machine.series import Members, OnShaft
     from gearlink.core.machines.machine.spec import Event, MachineSpec
     from gearlink.core.numerics.arrays import Reals

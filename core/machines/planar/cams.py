@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key
-from gearlink.core.base.report import safely_above
+from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.numerics.extremes import maximum_over
@@ -37,7 +37,6 @@ from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from gearlink.core.base.report import Check
     from gearlink.core.machines.planar.spec import CamPair
     from gearlink.core.machines.planar.structure import Line, LineJoint, Structure
     from gearlink.core.machines.planar.system import Jets

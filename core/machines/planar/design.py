@@ -15,13 +15,13 @@ from gearlink.core.base.design import Design, NamesOfFile, Outline
 from gearlink.core.base.errors import GearlinkError, MissingSection
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way, down, either
-from gearlink.core.base.report import Check, Quantity
+from gearlink.core.base.report import Check, Quantity, Status
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
 from gearlink.core.machines.planar.course import Course
-from gearlink.core.machines.planar.extremes import Wanted, extremes, turning_points
-from gearlink.core.machines.planar.outputs import moved, point_output
+from gearlink.core.machines.planar.extremes import Extreme, Pair, Wanted, extremes, turning_points
+from gearlink.core.machines.planar.outputs import Moved, moved, point_output
 from gearlink.core.machines.planar.structure import GearJoint, RackJoint, Structure
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
@@ -43,12 +43,7 @@ from gearlink.core.studies.clearance import (
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from gearlink.core.base.report import Status
-    from gearlink.core.machines.planar.course import Course
-    from gearlink.core.machines.planar.extremes import Extreme, Pair
-    from gearlink.core.machines.planar.outputs import Moved
     from gearlink.core.machines.planar.spec import PlanarSpec
-    from gearlink.core.machines.planar.structure import Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.numerics.arrays import Reals
 

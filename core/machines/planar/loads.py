@@ -10,19 +10,18 @@ import numpy as np
 
 from gearlink.core.base.design import NamesOfFile, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.base.report import Table
+from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.design import PlanarMechanism
 from gearlink.core.machines.planar.outputs import inputs
 from gearlink.core.mechanism.joints import Contact, Guide
 from gearlink.core.studies.loads import tables
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.design import LoadsDesign, Wanted, loads_outline
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from gearlink.core.base.report import Check, Status
     from gearlink.core.machines.planar.loads_spec import PlanarLoads as Section
     from gearlink.core.machines.planar.spec import PlanarSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
-    from gearlink.core.studies.loads.design import Wanted
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.sources import Sources
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from gearlink.core.machines.planar.outputs import moved, point_output
-from gearlink.core.machines.planar.structure import GearJoint, LineJoint, PinJoint, RackJoint
+from gearlink.core.machines.planar.structure import Driven, GearJoint, LineJoint, PinJoint, RackJoint, Structure
 from gearlink.core.mechanism.dual import Shift, elements_at
 from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.planar.cams import CamJoint, Lift
     from gearlink.core.machines.planar.course import Course as Followed
     from gearlink.core.machines.planar.design import PlanarMechanism
-    from gearlink.core.machines.planar.structure import Driven, Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.numerics.arrays import Points, Reals
 

@@ -13,18 +13,16 @@ import numpy as np
 from gearlink.core.base.report import Table
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.planar.system import Jets, scaled
-from gearlink.core.numerics.arrays import turn_degrees
+from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.design import PlanarMechanism
     from gearlink.core.machines.planar.dyads import Dyad
     from gearlink.core.machines.planar.extremes import Coefficient
     from gearlink.core.machines.planar.structure import Line, Structure
-    from gearlink.core.machines.planar.system import Jets
     from gearlink.core.mechanism.courses import Shown
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Course
-    from gearlink.core.numerics.arrays import Points, Reals
 
 RATES = {
     "angle": ("speed_ratio", "acceleration_ratio", "jerk_ratio"),

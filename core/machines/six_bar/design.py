@@ -27,7 +27,7 @@ from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
-from gearlink.core.machines.six_bar.spec import LINKS, PINS
+from gearlink.core.machines.six_bar.spec import LINKS, PINS, GearedSixBarSpec, SixTrain
 from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
 from gearlink.core.numerics.arrays import Reals, distinct, product, turn_degrees, turned
 from gearlink.core.numerics.motion_extremes import names
@@ -56,7 +56,6 @@ from gearlink.core.studies.clearance import (
 )
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.six_bar.spec import GearedSixBarSpec, SixTrain
     from gearlink.core.numerics.extremes import Extreme
 
 

@@ -12,12 +12,11 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.six_bar.design import GearedSixBar
-from gearlink.core.machines.six_bar.spec import LINKS, PINS, gear_bodies
+from gearlink.core.machines.six_bar.spec import LINKS, PINS, GearedSixBarSpec, gear_bodies
 from gearlink.core.studies.loads.design import LoadsDesign, homecoming, is_directed, loads_outline
 
 if TYPE_CHECKING:
     from gearlink.core.machines.six_bar.loads_spec import SixBarLoads as Section
-    from gearlink.core.machines.six_bar.spec import GearedSixBarSpec
     from gearlink.core.mechanism.motion import Motion
 
 _ON_PINS = tuple(f"{train}{pin}" for train in (1, 2) for pin in PINS)

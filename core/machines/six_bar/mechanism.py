@@ -8,17 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.machines.six_bar.spec import HOLDING, LINKS, PINS, gear_bodies
+from gearlink.core.machines.six_bar.spec import HOLDING, LINKS, PINS, SixTrain, gear_bodies
 from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.joints import Connection, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
-from gearlink.core.mechanism.rates import Turn, fixed, from_start, mixed, standing, steady
+from gearlink.core.mechanism.rates import Point, Turn, fixed, from_start, mixed, standing, steady
 
 if TYPE_CHECKING:
     from gearlink.core.machines.six_bar.design import GearedSixBar
-    from gearlink.core.machines.six_bar.spec import SixTrain
-    from gearlink.core.mechanism.rates import Point
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.studies.movable import Movable
 

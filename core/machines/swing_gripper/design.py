@@ -15,7 +15,7 @@ import numpy as np
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared, up
-from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Status, Table, safely_above, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Remedy, Rule, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.swing_gripper.codes import (
@@ -28,7 +28,7 @@ from gearlink.core.machines.swing_gripper.codes import (
 )
 from gearlink.core.machines.swing_gripper.motion import Motion, require
 from gearlink.core.numerics.arrays import Points, Reals, product, turn_degrees
-from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.cams.checks import (
@@ -54,7 +54,6 @@ from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.studies.clearance import beside_line, beside_turning_arm, beside_turning_pin
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Remedy
     from gearlink.core.machines.swing_gripper.forces import LeverSpring, Stop
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
@@ -67,7 +66,6 @@ if TYPE_CHECKING:
         Roller,
         SwingGripperSpec,
     )
-    from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.shaped import Phase
     from gearlink.core.parts.cams.size import RockingRoller
 

@@ -16,7 +16,7 @@ from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.machines.swing_gripper.motion import require
 from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
-from gearlink.core.studies.loads.contact import roller_on
+from gearlink.core.studies.loads.contact import RollerOnCam, roller_on
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
-    from gearlink.core.studies.loads.contact import RollerOnCam
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.spec import CamLoads
 

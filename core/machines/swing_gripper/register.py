@@ -13,20 +13,18 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.machines.swing_gripper.mechanism import without_cams
 from gearlink.core.mechanism.dual import Shift
-from gearlink.core.mechanism.joints import Contact, Pin
+from gearlink.core.mechanism.joints import Connection, Contact, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.rates import Turn, carried, fixed, steady
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.studies.register import RegisterDesign, no_such_place
+from gearlink.core.studies.register import Off, Output, RegisterDesign, no_such_place
 from gearlink.core.studies.tolerance.budget import Contribution
 from gearlink.core.studies.tolerance.sources import Parts
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
-    from gearlink.core.mechanism.joints import Connection
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.studies.movable import Errors
-    from gearlink.core.studies.register import Off, Output
 
 _PINS = ("A", "C", "D", "E")
 _PIVOTS = {"pivots.input": "A", "pivots.output": "E", "cam.center": "O"}

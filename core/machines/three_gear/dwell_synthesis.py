@@ -19,13 +19,19 @@ from gearlink.core.machines.three_gear.dwell import tolerance_dwell, valley
 from gearlink.core.machines.three_gear.momentary import wrap
 from gearlink.core.machines.three_gear.motion import GearTrain, forward, output_angle
 from gearlink.core.machines.three_gear.synthesis import LEAST_IDLER, TABLES, FamilyTask, candidates_table, with_analysis
-from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, band_of_window, flattest_of, keeping
+from gearlink.core.parts.linkages.band_dwell import (
+    AlwaysStepping,
+    ToleranceDwell,
+    Valley,
+    band_of_window,
+    flattest_of,
+    keeping,
+)
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.families import Family
-    from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, Valley
 
 MARGIN = 0.01
 PLAIN_TOLERANCE = 1.0

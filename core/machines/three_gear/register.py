@@ -37,7 +37,7 @@ from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
 from gearlink.core.parts.linkages.standstills import zeros_over_turn
 from gearlink.core.studies.clearance import Clearance, collision_judged, gaps, shaft_judged
-from gearlink.core.studies.register import RegisterDesign, no_such_place, turning
+from gearlink.core.studies.register import Output, RegisterDesign, no_such_place, turning
 from gearlink.core.studies.tolerance.budget import Contribution
 from gearlink.core.studies.tolerance.sampling import ARRAY_SAMPLES
 from gearlink.core.studies.tolerance.sources import GearOfSource, Parts
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.spec import ThreeGearSpec
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.parts.gears.mesh.pair import GearPair
-    from gearlink.core.studies.register import Output
 
 
 _KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")

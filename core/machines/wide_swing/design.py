@@ -15,7 +15,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
-from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, safely_above, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
@@ -36,7 +36,7 @@ from gearlink.core.machines.wide_swing.codes import (
 )
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
 from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, QUANTITIES, DeviceSize, device_table, names
-from gearlink.core.numerics.extremes import extremes_of_parts, minimum_over, share_of
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, minimum_over, share_of
 from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CAM_UNDERCUT, PRESSURE_ANGLE
@@ -45,7 +45,6 @@ from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Quantity
     from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam
     from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
     from gearlink.core.machines.wide_swing.law import LegacyLaw, MarchedLaw
@@ -55,7 +54,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.strokes import AnyCam
     from gearlink.core.machines.wide_swing.torques import FlankImpact
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.numerics.periodic import CosineSeries
     from gearlink.core.parts.gears.mesh.pair import GearPair
 

@@ -19,7 +19,7 @@ import numpy as np
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.remedies.ways import at_least
-from gearlink.core.base.report import Check, Quantity, Status, Table
+from gearlink.core.base.report import Check, Quantity, Remedy, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
@@ -28,8 +28,8 @@ from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
-from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path, strokes_of
-from gearlink.core.mechanism.dynamics import Force, Mass
+from gearlink.core.machines.wide_swing.strokes import AnyCam, Parts, Stroke, middle_of, path, strokes_of
+from gearlink.core.mechanism.dynamics import Force, Mass, Torque
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
 from gearlink.core.studies import codes
@@ -46,11 +46,8 @@ from gearlink.core.studies.loads.vibration import Vibrating
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from gearlink.core.base.report import Remedy
     from gearlink.core.machines.wide_swing.loads_spec import SwingLoads as Section
     from gearlink.core.machines.wide_swing.spec import WideSwingSpec
-    from gearlink.core.machines.wide_swing.strokes import AnyCam
-    from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.studies.loads.machine import Machine

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.strokes import middle_of, strokes_of
+from gearlink.core.machines.wide_swing.strokes import Stroke, middle_of, strokes_of
 from gearlink.core.mechanism.closures import dyad, slider
 from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.dual import Shift, longer
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
     from gearlink.core.machines.wide_swing.slider import SliderDrive
-    from gearlink.core.machines.wide_swing.strokes import Stroke
     from gearlink.core.numerics.arrays import Points, Reals
 
 

@@ -18,14 +18,13 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.cam import CamPoints, WideSwingCam
+from gearlink.core.machines.wide_swing.cam import CamPoints, CurveState, WideSwingCam
 from gearlink.core.machines.wide_swing.oscillating_cam import Home, OscillatingCam, crank_angle, way_home
 from gearlink.core.machines.wide_swing.slider import SliderCam
 from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.cam import CurveState
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
 
 

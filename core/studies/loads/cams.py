@@ -13,16 +13,14 @@ from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_ab
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
 from gearlink.core.mechanism.joints import NEWTON_METER
-from gearlink.core.numerics.arrays import turn_degrees
+from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.studies.codes import CONTACT_LOSS, CONTACT_PRESSURE, LOAD_REVERSAL, PRELOAD, ROLLER_SKID
 from gearlink.core.studies.loads.checks import listed, load_reversal
-from gearlink.core.studies.loads.design import LoadsDesign
+from gearlink.core.studies.loads.design import LoadsDesign, Wanted
 
 if TYPE_CHECKING:
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.studies.loads.contact import LineContact, RollerOnCam
-    from gearlink.core.studies.loads.design import Wanted
 
 
 CAM_CHECKS = ("contact-pressure", "contact-loss", "roller-skid", "preload")

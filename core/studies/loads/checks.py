@@ -11,13 +11,12 @@ import numpy as np
 
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Side, Status, safely_above, safely_below
 from gearlink.core.base.wording import amount, short
-from gearlink.core.mechanism.joints import Pin
+from gearlink.core.mechanism.joints import Connection, Pin
 from gearlink.core.mechanism.links import FRAME
 from gearlink.core.studies import codes
 from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
-    from gearlink.core.mechanism.joints import Connection
     from gearlink.core.studies.loads.design import LoadsDesign
     from gearlink.core.studies.loads.joints import MeshLoad
 

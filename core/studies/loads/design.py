@@ -14,11 +14,11 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import at_least, at_most
-from gearlink.core.base.report import Quantity, without_noise
+from gearlink.core.base.report import Check, Quantity, Remedy, without_noise
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec_paths import number_at
-from gearlink.core.mechanism.joints import Guide, Pin, Toothed
-from gearlink.core.numerics.arrays import BLOCK, turn_degrees
+from gearlink.core.mechanism.joints import Connection, Guide, Pin, Toothed
+from gearlink.core.numerics.arrays import BLOCK, Reals, turn_degrees
 from gearlink.core.studies.loads import checks, tables
 from gearlink.core.studies.loads.checks import VIBRATION_CHECKS, residual_vibration, resonance, rigid_model
 from gearlink.core.studies.loads.names import (
@@ -35,11 +35,8 @@ from gearlink.core.studies.loads.names import (
 )
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Check, Remedy
     from gearlink.core.mechanism.dynamics import Mass
-    from gearlink.core.mechanism.joints import Connection
     from gearlink.core.mechanism.motion import Motion
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.studies.loads.flywheel import Energy
     from gearlink.core.studies.loads.machine import Machine

@@ -11,15 +11,13 @@ import numpy as np
 
 from gearlink.core.base.results import cached_property, keep, kept
 from gearlink.core.mechanism.joints import Pin, ToothDrive, meshes_of
-from gearlink.core.mechanism.links import rates
-from gearlink.core.numerics.arrays import BLOCK, Reals
+from gearlink.core.mechanism.links import Mechanism, rates
+from gearlink.core.numerics.arrays import BLOCK, Points, Reals
 from gearlink.core.numerics.roots_sweep import zeros, zeros_of
 from gearlink.core.studies.loads.machine import Machine
 from gearlink.core.studies.loads.panels import Panels
 
 if TYPE_CHECKING:
-    from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.numerics.arrays import Points
     from gearlink.core.studies.loads.design import LoadsDesign
     from gearlink.core.studies.loads.spec import Bearing
 

@@ -12,14 +12,13 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import labels, panels, scene_axes, style
 from gearlink.cli.views.scenes import linkages, of_motion, shown
-from gearlink.cli.views.scenes.scene import Body
+from gearlink.cli.views.scenes.scene import Body, Reals
 from gearlink.core.mechanism import vectors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.cli.views.scenes.scene import Reals
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Input
 
