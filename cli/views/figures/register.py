@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, style, time_axes
+from gearlink.cli.views.figures.drawing import linkage, panels, style, time_axes
 from gearlink.core.studies.tolerance.budget import Budget, Row, at_worst
 
 if TYPE_CHECKING:
@@ -54,13 +54,9 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
     if design.section.tolerance is not None:
         limit = design.section.tolerance
         axes.axhline(limit, color=style.RED, linewidth=1.2, linestyle=style.CHAIN, label="allowed")
-    words: str | None = "torque turns"
-    for flip in design.flips or ():
-        place = math.degrees(flip)
-        place += 360.0 * math.ceil((degrees[0] - place) / 360.0)
-        if place <= degrees[-1]:
-            axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label=words)
-            words = None
+    places = (math.degrees(flip) for flip in design.flips or ())
+    shown = (place + 360.0 * math.ceil((degrees[0] - place) / 360.0) for place in places)
+    linkage.standstills(axes, [math.radians(place) for place in shown if place <= degrees[-1]], "torque turns")
     axes.set_xlim(degrees[0], degrees[-1])
     _in_time(axes, design)
     _from_zero(axes)

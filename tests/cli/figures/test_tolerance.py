@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from sheets import fits_a_page, meetings, placed_sheet, sheet
+from sheets import fits_a_page, meetings, placed_sheet, sheet, tagged
 
 from gearlink.cli.views.figures import tolerance
 from gearlink.core.studies.tolerance_study.samples import Course
@@ -109,6 +109,8 @@ def test_a_register_sheet_says_each_thing_once_and_what_it_leaves_out() -> None:
     named = [text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().get_texts()]
     assert named.count("torque turns") == 1
     assert "By source, each at its limit" in [axes.get_title(loc="left") for axes in figure.axes]
+    (marks,) = tagged(sheet("loaded_measured_cam", "register").figure, "standstills")
+    assert len(marks.get_xdata()) > 12, "of many turns of a torque near 0 a mark each, no thicket of lines"
     for axes in figure.axes[:3]:
         assert axes.get_ylim()[1] > 1.04 * max(float(np.max(line.get_ydata())) for line in axes.lines[:2])
 
