@@ -12,8 +12,8 @@ import pytest
 from factory import changed, design
 from sheets import lines, meetings, panel, panel_named, points, sheet, tagged
 
-from gearlink.cli.views.figures import cams
-from gearlink.cli.views.figures.drawing import failing, style
+from gearlink.cli.views.figures import cams, of_motion
+from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.sheets import motion_sheet
 from gearlink.cli.views.figures.write import draw
@@ -178,7 +178,7 @@ def test_instants_that_fail_are_red_on_the_curves_over_the_input() -> None:
 def test_instants_that_fail_are_red_on_sheets_of_motion(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     made = design("lift_cam", limits__pressure_angle=20.0)
     figure = motion_sheet.draw(made)
-    failing.instants(figure, made, made.check("pressure-angle"))
+    of_motion.instants(figure, made, made.check("pressure-angle"))
     red = tagged(figure, "fails")
     assert len(red) == 4
     degrees = np.asarray(red[1].get_xdata())
