@@ -10,8 +10,6 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.diagnostics import Diagnostic
-from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.cli.texts.schema import all_kinds_schema, for_editors, kind_schema
 from gearlink.core.base.errors import named
 from gearlink.core.base.kind import Kind
@@ -25,6 +23,8 @@ def kind_named(name: str) -> Kind | None:
     from difflib import get_close_matches
 
     from gearlink.cli.glossary import kinds_named
+    from gearlink.cli.reading.diagnostics import Diagnostic
+    from gearlink.cli.render.errors import show_errors
 
     spelled = name.lower().replace("_", "-").replace(" ", "-")
     near = [] if get_close_matches(spelled, FILES, n=1, cutoff=0.8) else kinds_named(name, FILES)
@@ -64,6 +64,8 @@ def write_schema(kind_name: str | None, folder: Path) -> int:
             write_atomically(settings, lambda stream: stream.write(f"{line}\n".encode()))
             print(f"wrote {visible(str(settings))}", file=sys.stderr)
     except CannotWrite as error:
+        from gearlink.cli.render.errors import show_refusal
+
         return show_refusal(error, "<--write>", Options())
     return ExitCode.OK
 
