@@ -17,8 +17,9 @@ _LEAST_MEMORY = 500 << 20
 """Below it some commands cannot load their libraries."""
 _COMPLETES = "_GEARLINK_COMPLETE"
 _NO_READER_OF_WINDOWS = 22
-_HEEDS_ESCAPES = 4  # ENABLE_VIRTUAL_TERMINAL_PROCESSING
 """EINVAL: what a pipe says there whose reader has gone; elsewhere that is a BrokenPipeError."""
+_HEEDS_ESCAPES = 4
+"""ENABLE_VIRTUAL_TERMINAL_PROCESSING of a Windows console."""
 _MOST_DIGITS = 9
 """Of the size of a terminal."""
 
@@ -62,12 +63,25 @@ def _prepare_process() -> None:
             del os.environ[name]  # rich takes 2 squared for a number, and so many digits that Python refuses them
 
 
+class _NoPlugins(type(sys)):  # type: ignore[misc]  # the class of modules
+    """Stands for pydantic's finder of plug-ins and finds none; what else is asked of it, the finder itself gives."""
+
+    get_plugins = tuple
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        from importlib import import_module
+
+        if sys.modules.get(self.__name__) is self:
+            del sys.modules[self.__name__]
+        return getattr(import_module(self.__name__), name)
+
+
 def _leave_plugins_out() -> None:
     """Have pydantic find no plug-ins: even where it is told to, it imports what reads the metadata of packages, with
     email, sockets and archives, which takes a tenth of a command."""
-    finder = type(sys)("pydantic.plugin._loader")
-    finder.get_plugins = tuple  # type: ignore[attr-defined]
-    sys.modules.setdefault(finder.__name__, finder)
+    sys.modules.setdefault("pydantic.plugin._loader", _NoPlugins("pydantic.plugin._loader"))
 
 
 class _Output(io.FileIO):

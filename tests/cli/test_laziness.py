@@ -202,6 +202,16 @@ def test_reading_a_file_imports_no_metadata_of_packages() -> None:
     assert not modules & {"importlib.metadata", "email", "socket", "zipfile"}
 
 
+def test_what_else_a_pydantic_asks_of_its_finder_of_plugins_the_finder_gives() -> None:
+    line = (
+        "from gearlink.cli.main import _leave_plugins_out; _leave_plugins_out(); "
+        "from pydantic.plugin._loader import get_plugins, PYDANTIC_ENTRY_POINT_GROUP as group; "
+        "import pydantic.plugin._loader as finder; print(get_plugins(), group, *finder.get_plugins())"
+    )
+    done = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
+    assert done.stdout == "() pydantic\n"
+
+
 def test_version_imports_no_typer() -> None:
     modules = loaded_after(*VERSION)
     assert installed(modules) <= {"gearlink"}
