@@ -229,8 +229,10 @@ def meaning_in(word: str, kind: str, section: tuple[str | int, ...]) -> Meaning 
 
     Masses and loads have letters of their own: m in `loads` is no module.
     """
-    top = str(section[0]) if section else ""
+    top, itself = str(section[0]) if section else "", ".".join(map(str, (*section, word)))
     for meaning in meanings_of(word, kind):
+        if itself in meaning.keys:  # of another form of the section
+            continue
         if meaning.section and meaning.section == top:
             return meaning
         places = {"", *_GEOMETRY, *(key.partition(".")[0] for key in meaning.keys)}

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
-from gearlink.cli.glossary import Meaning, folded, meanings
+from gearlink.cli.glossary import Meaning, folded, meaning_in, meanings
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.texts.schema import spec_keys, worked_design
@@ -130,3 +130,8 @@ def test_a_word_of_the_card_leads_on_in_every_kind(kind: str) -> None:
         assert to_kinds or found.help.startswith((f"{found.key} is ", "it belongs to '")), found.help
         belongs = found.help.partition(";")[0] if found.help.startswith("it belongs") else ""
         assert not any(name in belongs for name in ("rating", "tolerance", "loads"))
+
+
+def test_a_key_of_another_form_of_its_section_is_not_recommended_again() -> None:
+    assert meaning_in("offset", "disc-cam", ("follower",)) is None
+    assert meaning_in("offset", "disc-cam", ("cam",)) is not None
