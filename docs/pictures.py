@@ -47,6 +47,14 @@ THUMBNAILS = {
     "cam-linkage": ("cam_linkage", 0.1),
     "cycloidal-reducer": ("cycloidal_reducer", 0.1),
     "gear-pair": ("ring_pair", 0.0),
+    "measured-cam": ("measured_cam", 0.12),
+    "machine": ("sheet_press", 0.1),
+}
+# Of the kinds that have no loop: command, example, and the part of its figure by shares of width and height.
+PARTS = {
+    "gear-train-mobility": ("analyze", "six_bar_two_trains", (0.02, 0.1, 0.58, 0.93)),
+    "motion-law": ("analyze", "quiet_law", (0.1, 0.07, 0.97, 0.32)),
+    "study": ("explore", "studies/dwell_feed", (0.07, 0.05, 0.53, 0.29)),
 }
 _THUMBNAIL, _EDGE = (200, 150), 6
 # Teeth move on by less than half a pitch from one frame to the next; more frames or colours exceed 400 kB.
@@ -72,6 +80,27 @@ def thumbnail(name: str, fraction: float) -> Image.Image:
     return made
 
 
+def part_of_figure(command: str, design: str, part: tuple[float, float, float, float]) -> Image.Image:
+    """A part of a command's figure, as large as it may be."""
+    with tempfile.TemporaryDirectory() as folder:
+        whole = drawn((command,), design, Path(folder))
+    found = whole.crop(tuple(round(share * whole.size[i % 2]) for i, share in enumerate(part)))  # type: ignore[arg-type]
+    found.thumbnail(tuple(size - 2 * _EDGE for size in _THUMBNAIL), Image.Resampling.LANCZOS)
+    made = Image.new("RGB", _THUMBNAIL, "white")
+    made.paste(found, tuple((size - own) // 2 for size, own in zip(_THUMBNAIL, found.size, strict=True)))
+    return made
+
+
+def drawn(command: tuple[str, ...], design: str, folder: Path, *options: str) -> Image.Image:
+    """The figure of a command."""
+    source = str(ROOT / "designs" / f"{design}.yaml")
+    words = [*command, source, "--plot", *options, "--out", str(folder), "--quiet"]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    (path,) = folder.glob("*.png")
+    with Image.open(path) as picture:
+        return picture.convert("RGB")
+
+
 def write_png(picture: Image.Image, name: str) -> None:
     """Write a figure with few colours, paper white."""
     small = picture.convert("RGB").quantize(_COLORS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
@@ -92,12 +121,7 @@ def write_feed() -> None:
 def write_figure(command: tuple[str, ...], design: str, dpi: int, name: str) -> None:
     """The figure of a command."""
     with tempfile.TemporaryDirectory() as folder:
-        source = str(ROOT / "designs" / f"{design}.yaml")
-        words = [*command, source, "--plot", "--dpi", str(dpi), "--out", folder, "--quiet"]
-        assert CliRunner().invoke(app, words).exit_code == 0
-        (path,) = Path(folder).glob("*.png")
-        with Image.open(path) as picture:
-            picture.convert("RGB").save(TARGET / f"{name}.png", optimize=True)
+        drawn(command, design, Path(folder), "--dpi", str(dpi)).save(TARGET / f"{name}.png", optimize=True)
 
 
 def write_all() -> None:
@@ -108,6 +132,8 @@ def write_all() -> None:
     write_figure(("synth", "dwell"), "standing_feed", 80, "first-result")
     for kind, (name, fraction) in THUMBNAILS.items():
         write_png(thumbnail(name, fraction), kind)
+    for kind, part in PARTS.items():
+        write_png(part_of_figure(*part), kind)
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ def test_links_lead_somewhere(page: Path) -> None:
 def test_figures_of_the_readme_are_those_of_the_script_and_small() -> None:
     """`make docs` draws them; an animation of more than 400 kB is too large for a first page."""
     script = (ROOT / "docs" / "pictures.py").read_text()
-    kinds = re.findall(r'^    "([\w-]+)": \("(\w+)", [\d.]+\),$', script, re.MULTILINE)
+    kinds = re.findall(r'^    "([\w-]+)": \((?:"\w+", )?"([\w/]+)", [(\d]', script, re.MULTILINE)
     assert [name for _, name in kinds if not (DESIGNS / f"{name}.yaml").exists()] == []
     sizes = {path.name: path.stat().st_size for path in (ROOT / "docs" / "img").iterdir()}
     shown = re.findall(r"docs/img/([\w.-]+)", (ROOT / "README.md").read_text())
