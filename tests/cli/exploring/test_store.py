@@ -112,7 +112,8 @@ def alive(group: int) -> bool:
 @pytest.mark.slow
 def test_interrupted_it_says_how_to_continue(study: Path, tmp_path: Path) -> None:
     store = tmp_path / "s.sqlite"
-    data = {**STUDY, "variables": {**STUDY["variables"], "rod": {"from": 200, "to": 400, "step": 0.2}}}
+    variables = {**STUDY["variables"], "rod": {"from": 200, "to": 400, "step": 0.2}}
+    data = {**STUDY, "command": "analyze", "minimize": {"velocity_max": "1 mm/rad"}, "variables": variables}
     study.write_text(yaml.safe_dump(data, sort_keys=False))
     process = begun(study, store)
     deadline = time.monotonic() + 20.0
