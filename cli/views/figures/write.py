@@ -59,7 +59,9 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
 
 def failures(checks: Iterable[Check]) -> str:
     """What fails, each check once with the first value that does; "" where nothing does."""
-    return ", ".join(failing(checks)).replace("^2", "²").replace("<=", "≤").replace(">=", "≥")
+    from gearlink.cli.views.scenes.scene import drawn
+
+    return drawn(", ".join(failing(checks)))
 
 
 def panels(command: str, design: Design) -> Figure:

@@ -61,6 +61,16 @@ Points: TypeAlias = NDArray[np.inexact[Any]]
 TURN = 2.0 * np.pi
 
 
+def drawn(words: str) -> str:
+    """Words of a message as a picture has them.
+
+    Example
+        >>> drawn("acceleration 12 rad/s^2 (limit <= 9)")
+        'acceleration 12 rad/s² (limit ≤ 9)'
+    """
+    return words.replace("^2", "²").replace("<=", "≤").replace(">=", "≥")
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Body:
     """An outline that moves as one piece.

@@ -41,6 +41,7 @@ from gearlink.cli.views.scenes.scene import (
     Reals,
     Scene,
     circle,
+    drawn,
     placed,
 )
 from gearlink.core.base.design import UnknownName
@@ -739,7 +740,7 @@ class _Failing:
         told = {"GL301": self._clashes, "GL302": self._clashes, "GL303": self._transmission, "GL401": self._pressure}
         seen: set[str] = set()
         for check in failed:
-            words = check.brief
+            words = drawn(check.brief)
             if words in seen:
                 continue
             seen.add(words)
