@@ -27,6 +27,10 @@ FAMILIES = {
     "yields": "yields:family",
     "loads": "loads:family",
     "studio": "studio:family",
+    "planar": "planar:family",
+    "cam-size": "sizes:cams",
+    "crank-rocker": "sizes:rockers",
+    "cam-samples": "samples:cams",
 }
 
 

@@ -1,22 +1,30 @@
-"""Samples of tolerance studies: drives as manufactured, many at once against one by one."""
+"""Samples of tolerance studies: drives and disc cams as manufactured, many together against one by one."""
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bench.timing import Family, Method, Row, measure, numpy_pass
+from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
+from gearlink.core.machines.disc_cam.design import DiscCamDesign
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.register import ThreeGearSamples
 from gearlink.core.machines.three_gear.spec import ThreeGearSpec
+from gearlink.core.studies.explore.base import Base
 
 _FEW = 12
 _ASKED = ("speed_ratio_min", "back_step_angle", "dwell_swing", "dwell_angle", "tolerance_dwell_angle")
 _DEVIATION = 0.0067  # mm: limits of +-0.02 at three of it
+_WIDTH, _LIFT, _ROLLER = 80.0, 12.0, 12.0
+"""Of the sampled cams: cam angle of rise and return [deg], lift, roller radius [mm]."""
+_PLACE = ("cam.prime_radius", 60.0), ("follower.offset", 5.0)
+_OF_CAMS = ("max_pressure_angle", "min_curvature_radius")
 _KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
 
 
@@ -65,3 +73,111 @@ def _difference(axis: ThreeGearSamples, columns: dict[str, Any], name: str) -> f
     many = axis.evaluate(columns, (name,)).quantities[name]
     single = np.array(_alone(axis, columns, name))
     return float(np.max(np.abs(many - single) / np.maximum(1.0, np.abs(single))))
+
+
+# Disc cams
+
+
+def cams(quick: bool) -> Family:
+    """The table of disc cams; the error is that of pressure angle and curvature radius against 40 digits."""
+    size, few = 256, 16
+    places = _places(size)
+    ways: list[tuple[str, int, Callable[[], NDArray[np.float64]]]] = [
+        ("searches together", size, partial(_cams, places, together=True)),
+        ("one by one", few, partial(_cams, places[:few], together=False)),
+        *(
+            (f"textbook scan, step {h:g} deg", size, partial(_scan, places, h))
+            for h in ((1.0,) if quick else (4.0, 1.0, 0.25))
+        ),
+    ]
+    methods = [Method(name, count, run, _off(run(), places)) for name, count, run in ways]
+    return Family(
+        "cam-samples",
+        "Samples of a disc cam as manufactured: maximum pressure angle and minimum curvature radius",
+        "relative",
+        f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
+        measure(methods, numpy_pass(size), size, 3 if quick else 5),
+        (
+            "prime radius 60 mm and offset 5 mm +-0.02 mm; lift 12 mm by polynomial 3-4-5 in 80 deg, and back",
+            "gearlink: from the changed numbers to both quantities, each design validated and its extremes refined",
+            "textbook scan: all cams at equal steps of the cam angle as one array; the largest of the values there",
+        ),
+    )
+
+
+def _places(size: int) -> list[list[tuple[str, float]]]:
+    off = np.random.default_rng(2).normal(size=(size, len(_PLACE))) * _DEVIATION
+    return [[(key, value + by) for (key, value), by in zip(_PLACE, row, strict=True)] for row in off.tolist()]
+
+
+@cache
+def _base() -> Base:
+    motion = [
+        {"to": _WIDTH, "lift": _LIFT, "law": "polynomial-345"},
+        {"to": 150},
+        {"to": 150 + _WIDTH, "lift": 0, "law": "polynomial-345"},
+        {"to": 360},
+    ]
+    data = {
+        "kind": "disc-cam",
+        "name": "cam",
+        "motion": motion,
+        "follower": {"type": "translating-roller", "roller_radius": _ROLLER, "offset": _PLACE[1][1]},
+        "cam": {"prime_radius": _PLACE[0][1]},
+    }
+    return Base(data, "cam")
+
+
+def _cams(places: list[list[tuple[str, float]]], *, together: bool) -> NDArray[np.float64]:
+    designs: list[Any] = [_base().design(place) for place in places]
+    if together:
+        DiscCamDesign.find_together(designs, _OF_CAMS)
+    return np.array([[design.raw(name) for name in _OF_CAMS] for design in designs])
+
+
+def _motion() -> Any:
+    design: Any = _base().design([])
+    return design.follower_motion
+
+
+def _scan(places: list[list[tuple[str, float]]], step: float) -> NDArray[np.float64]:
+    s, s1, s2 = _motion().evaluate(np.radians(np.arange(0.0, 360.0, step)), 2)
+    radius, offset = np.array([[value for _, value in place] for place in places]).T[..., None]
+    y, w = np.sqrt(radius**2 - offset**2) + s, s1 - offset
+    bend = (y * y - y * s2 + w * (w + s1)) / (y * y + w * w) ** 1.5
+    return np.array([np.arctan(np.abs(w) / y).max(axis=1), 1.0 / bend.max(axis=1)]).T
+
+
+def _off(found: NDArray[np.float64], places: list[list[tuple[str, float]]]) -> float:
+    """Maximum relative error of both quantities, on some of the cams."""
+    mp = mpmath(40)
+    return max(
+        float(abs(mp.mpf(float(found[i, k])) / true - 1))
+        for i in sample_of(len(found), 4)
+        for k, true in enumerate(_exact(places[i][0][1], places[i][1][1]))
+    )
+
+
+@cache
+def _exact(radius: float, offset: float) -> tuple[Any, Any]:
+    """Pressure angle and curvature radius in 40 digits, of the stroke on which each is worse."""
+    mp = mpmath(40)
+    wide, e = mp.radians(mp.mpf(_WIDTH)), mp.mpf(offset)
+    start = mp.sqrt(mp.mpf(radius) ** 2 - e**2)
+
+    def lift(x: Any) -> Any:
+        return _LIFT * x**3 * (10 - 15 * x + 6 * x**2)
+
+    def course(x: Any, sense: int) -> tuple[Any, Any]:
+        y, w = start + lift(x), sense * mp.diff(lift, x) / wide - e
+        bend = y**2 - y * mp.diff(lift, x, 2) / wide**2 + w * (w + sense * mp.diff(lift, x) / wide)
+        return abs(w) / y, bend / (y**2 + w**2) ** mp.mpf(1.5)
+
+    def most(k: int, near: float) -> Any:
+        found = []
+        for sense in (1, -1):  # a return is the rise run backwards
+            place = mp.findroot(lambda x, sense=sense: mp.diff(lambda each: course(each, sense)[k], x), near)
+            found.append(course(place, sense)[k])
+        return max(found)
+
+    return mp.atan(most(0, 0.45)), 1 / most(1, 0.8)

@@ -50,6 +50,44 @@ def test_loads_family_shows_what_the_textbook_leaves_out(monkeypatch: pytest.Mon
     assert 1e-6 < error["three-gear-four-bar: torque, J' by differences"] < 1e-3
 
 
+def _errors(name: str, monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
+    monkeypatch.setattr(timing, "interleaved", lambda runs, *_: [1.0] * len(runs))
+    return {f"{row.method}, {row.size}": row.error for row in measured(name, quick=True).rows}
+
+
+@pytest.mark.slow
+def test_planar_family_shows_what_differences_cost(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("planar", monkeypatch)
+    assert max(error["course, order 2, 1"], error["course, order 2, 360"]) < 1e-13
+    assert error["textbook dyads, FFT, 360"] < 1e-9 < error["textbook dyads, numpy.gradient, 360"] < 1e-2
+    assert 1e-6 < error["scipy fsolve and differences, step 0.01, 360"] < 1e-3
+
+
+@pytest.mark.slow
+def test_cam_size_family_shows_what_a_scan_misses(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("cam-size", monkeypatch)
+    exact = ("best offset: corner of the exact limits, 1", "curvature radius: largest root at each cam angle, 1")
+    assert all(error[name] < 1e-12 for name in exact)
+    assert 1e-3 < error["scipy over the offset, step 4, 1"] < error["textbook scan of offsets, step 4, 1"] < 4.0
+    assert 1e-4 < error["scipy brentq of the least radius, step 1, 1"] < 1e-1
+
+
+@pytest.mark.slow
+def test_crank_rocker_family_shows_the_digits_of_a_flat_extreme(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("crank-rocker", monkeypatch)
+    assert error["swing: root of the cubic, 1"] < 1e-15
+    assert (
+        1e-10 < error["scipy minimize_scalar, to 1e-12, 1"] < 1e-6 < error["textbook scan of couplers, step 0.001, 1"]
+    )
+
+
+@pytest.mark.slow
+def test_cam_samples_family_finds_together_what_each_finds_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("cam-samples", monkeypatch)
+    assert max(error["searches together, 256"], error["one by one, 16"]) < 1e-13
+    assert 1e-5 < error["textbook scan, step 1 deg, 256"] < 1e-2
+
+
 def test_wrong_family_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(["five-bar"])
