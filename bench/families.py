@@ -31,6 +31,8 @@ FAMILIES = {
     "cam-size": "sizes:cams",
     "crank-rocker": "sizes:rockers",
     "cam-samples": "samples:cams",
+    "drum-samples": "samples:drums",
+    "motion-laws": "laws:family",
 }
 
 

@@ -1,4 +1,4 @@
-"""Samples of tolerance studies: drives and disc cams as manufactured, many together against one by one."""
+"""Samples of tolerance studies: drives and cams as manufactured, many together against one by one."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
-from gearlink.core.machines.disc_cam.design import DiscCamDesign
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.register import ThreeGearSamples
 from gearlink.core.machines.three_gear.spec import ThreeGearSpec
@@ -24,6 +23,10 @@ _DEVIATION = 0.0067  # mm: limits of +-0.02 at three of it
 _WIDTH, _LIFT, _ROLLER = 80.0, 12.0, 12.0
 """Of the sampled cams: cam angle of rise and return [deg], lift, roller radius [mm]."""
 _PLACE = ("cam.prime_radius", 60.0), ("follower.offset", 5.0)
+_DRUM, _DEPTH, _STROKE = 60.0, 12.0, 40.0
+"""Of the sampled drums: radius, depth of the track, lift [mm]; two sizes vary."""
+_SIZES = ("cam.radius", _DRUM), ("follower.roller_radius", 18.0)
+_OF_DRUMS = ("max_pressure_angle", "least_wall_factor")
 _OF_CAMS = ("max_pressure_angle", "min_curvature_radius")
 _KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
 
@@ -81,16 +84,16 @@ def _difference(axis: ThreeGearSamples, columns: dict[str, Any], name: str) -> f
 def cams(quick: bool) -> Family:
     """The table of disc cams; the error is that of pressure angle and curvature radius against 40 digits."""
     size, few = 256, 16
-    places = _places(size)
+    places = _places(_PLACE, size)
     ways: list[tuple[str, int, Callable[[], NDArray[np.float64]]]] = [
-        ("searches together", size, partial(_cams, places, together=True)),
-        ("one by one", few, partial(_cams, places[:few], together=False)),
+        ("searches together", size, partial(_made, _base(), _OF_CAMS, places, together=True)),
+        ("one by one", few, partial(_made, _base(), _OF_CAMS, places[:few], together=False)),
         *(
             (f"textbook scan, step {h:g} deg", size, partial(_scan, places, h))
             for h in ((1.0,) if quick else (4.0, 1.0, 0.25))
         ),
     ]
-    methods = [Method(name, count, run, _off(run(), places)) for name, count, run in ways]
+    methods = [Method(name, count, run, _off(run(), places, _exact)) for name, count, run in ways]
     return Family(
         "cam-samples",
         "Samples of a disc cam as manufactured: maximum pressure angle and minimum curvature radius",
@@ -105,9 +108,9 @@ def cams(quick: bool) -> Family:
     )
 
 
-def _places(size: int) -> list[list[tuple[str, float]]]:
-    off = np.random.default_rng(2).normal(size=(size, len(_PLACE))) * _DEVIATION
-    return [[(key, value + by) for (key, value), by in zip(_PLACE, row, strict=True)] for row in off.tolist()]
+def _places(nominal: tuple[tuple[str, float], ...], size: int) -> list[list[tuple[str, float]]]:
+    off = np.random.default_rng(2).normal(size=(size, len(nominal))) * _DEVIATION
+    return [[(key, value + by) for (key, value), by in zip(nominal, row, strict=True)] for row in off.tolist()]
 
 
 @cache
@@ -128,11 +131,13 @@ def _base() -> Base:
     return Base(data, "cam")
 
 
-def _cams(places: list[list[tuple[str, float]]], *, together: bool) -> NDArray[np.float64]:
-    designs: list[Any] = [_base().design(place) for place in places]
+def _made(
+    base: Base, names: tuple[str, ...], places: list[list[tuple[str, float]]], *, together: bool
+) -> NDArray[np.float64]:
+    designs: list[Any] = [base.design(place) for place in places]
     if together:
-        DiscCamDesign.find_together(designs, _OF_CAMS)
-    return np.array([[design.raw(name) for name in _OF_CAMS] for design in designs])
+        type(designs[0]).find_together(designs, names)
+    return np.array([[design.raw(name) for name in names] for design in designs])
 
 
 def _motion() -> Any:
@@ -148,13 +153,17 @@ def _scan(places: list[list[tuple[str, float]]], step: float) -> NDArray[np.floa
     return np.array([np.arctan(np.abs(w) / y).max(axis=1), 1.0 / bend.max(axis=1)]).T
 
 
-def _off(found: NDArray[np.float64], places: list[list[tuple[str, float]]]) -> float:
-    """Maximum relative error of both quantities, on some of the cams."""
+def _off(
+    found: NDArray[np.float64],
+    places: list[list[tuple[str, float]]],
+    exact: Callable[[float, float], tuple[Any, Any]],
+) -> float:
+    """Maximum error of both quantities, relative, on some of the cams."""
     mp = mpmath(40)
     return max(
         float(abs(mp.mpf(float(found[i, k])) / true - 1))
         for i in sample_of(len(found), 4)
-        for k, true in enumerate(_exact(places[i][0][1], places[i][1][1]))
+        for k, true in enumerate(exact(places[i][0][1], places[i][1][1]))
     )
 
 
@@ -181,3 +190,84 @@ def _exact(radius: float, offset: float) -> tuple[Any, Any]:
         return max(found)
 
     return mp.atan(most(0, 0.45)), 1 / most(1, 0.8)
+
+
+# Cylindrical cams
+
+
+def drums(quick: bool) -> Family:
+    """The table of cylindrical cams; the error is that of pressure angle and wall factor against 40 digits."""
+    size, few = 256, 16
+    places, base = _places(_SIZES, size), _drum_base()
+    steps = (1.0,) if quick else (4.0, 1.0, 0.25)
+    ways: list[tuple[str, int, Callable[[], NDArray[np.float64]]]] = [
+        ("searches together", size, partial(_made, base, _OF_DRUMS, places, together=True)),
+        ("one by one", few, partial(_made, base, _OF_DRUMS, places[:few], together=False)),
+        *((f"textbook scan, step {h:g} deg", size, partial(_drum_scan, places, h)) for h in steps),
+        ("textbook development, 0.25 deg", size, partial(_drum_scan, places, 0.25, developed=True)),
+    ]
+    methods = [Method(name, count, run, _off(run(), places, _drum_exact)) for name, count, run in ways]
+    return Family(
+        "drum-samples",
+        "Samples of a cylindrical cam: maximum pressure angle and minimum wall factor of the track",
+        "relative",
+        f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
+        measure(methods, numpy_pass(size), size, 3 if quick else 5),
+        (
+            "drum of radius 60 mm and roller of 18 mm +-0.02 mm, track 12 mm deep; lift 40 mm in 110 deg, and back",
+            "wall factor: a wall of the track, in space, is regular where it is positive",
+            "textbook scan: all drums at equal steps of the cam angle as one array",
+            "textbook development: the walls as parallel curves in the plane, which omits their twist",
+        ),
+    )
+
+
+@cache
+def _drum_base() -> Base:
+    motion = [
+        {"to": 110, "lift": _STROKE, "law": "polynomial-345"},
+        {"to": 180},
+        {"to": 290, "lift": 0, "law": "polynomial-345"},
+        {"to": 360},
+    ]
+    data = {
+        "kind": "cylindrical-cam",
+        "name": "drum",
+        "motion": motion,
+        "follower": {"type": "translating-roller", "roller_radius": _SIZES[1][1]},
+        "cam": {"radius": _DRUM, "depth": _DEPTH},
+    }
+    return Base(data, "cam")
+
+
+def _drum_scan(places: list[list[tuple[str, float]]], step: float, *, developed: bool = False) -> NDArray[np.float64]:
+    design: Any = _drum_base().design([])
+    _, s1, s2 = design.follower_motion.evaluate(np.radians(np.arange(0.0, 360.0, step)), 2)
+    radius, roller = np.array([[value for _, value in place] for place in places]).T[..., None]
+    steepest = np.arctan(np.abs(s1).max() / (radius[:, 0] - _DEPTH))
+    factors = []
+    for x in (radius, radius - _DEPTH):
+        square = x * x + s1 * s1
+        twist = 0.0 if developed else (roller * s1 / square) ** 2
+        factors.append((1.0 - roller * x * np.abs(s2) / square**1.5 - twist).min(axis=1))
+    return np.array([steepest, np.minimum(*factors)]).T
+
+
+@cache
+def _drum_exact(radius: float, roller: float) -> tuple[Any, Any]:
+    """Pressure angle and wall factor in 40 digits: tan alpha = (15/8) h/(beta x) at the bottom of the track."""
+    mp = mpmath(40)
+    wide, roll = mp.radians(mp.mpf(110)), mp.mpf(roller)
+
+    def factor(u: Any, x: Any) -> Any:
+        s1 = _STROKE * 30 * u**2 * (1 - u) ** 2 / wide
+        s2 = _STROKE * 60 * u * (1 - u) * (1 - 2 * u) / wide**2
+        square = x**2 + s1**2
+        return 1 - roll * x * s2 / square ** mp.mpf(1.5) - (roll * s1 / square) ** 2
+
+    bottom = mp.mpf(radius) - _DEPTH
+    found = []
+    for x in (mp.mpf(radius), bottom):
+        near = min((factor(mp.mpf(k) / 64, x), k) for k in range(1, 32))[1] / 64.0
+        found.append(factor(mp.findroot(lambda u, x=x: mp.diff(lambda each: factor(each, x), u), near), x))
+    return mp.atan(mp.mpf(15) / 8 * _STROKE / wide / bottom), min(found)

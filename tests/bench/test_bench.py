@@ -88,6 +88,22 @@ def test_cam_samples_family_finds_together_what_each_finds_alone(monkeypatch: py
     assert 1e-5 < error["textbook scan, step 1 deg, 256"] < 1e-2
 
 
+@pytest.mark.slow
+def test_drum_samples_family_shows_what_the_development_omits(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("drum-samples", monkeypatch)
+    assert max(error["searches together, 256"], error["one by one, 16"]) < 1e-13
+    assert 1e-7 < error["textbook scan, step 1 deg, 256"] < 1e-4 < error["textbook development, 0.25 deg, 256"] < 0.1
+
+
+@pytest.mark.slow
+def test_motion_laws_family_shows_what_lies_between_the_places(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("motion-laws", monkeypatch)
+    assert 0.0 < error["optimal law, proved, 1"] < 1e-5 < error["scipy linprog, 100 places, 1"] < 1e-2
+    assert error["residual: Gauss panels, 1"] < 1e-13
+    assert 1e-6 < error["textbook trapezoids, 400 places, 1"] < 1e-4
+    assert error["scipy solve_ivp, to 1e-06, 1"] < 1e-5
+
+
 def test_wrong_family_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(["five-bar"])
