@@ -33,6 +33,7 @@ FAMILIES = {
     "cam-samples": "samples:cams",
     "drum-samples": "samples:drums",
     "motion-laws": "laws:family",
+    "machines": "machines:family",
 }
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import four_bar, studio, timing, write_page
+from bench import four_bar, machines, studio, timing, write_page
 from bench.__main__ import main
 from bench.families import measured
 from bench.page import as_markdown, as_text, curves, duration, write_pictures
@@ -93,6 +93,16 @@ def test_drum_samples_family_shows_what_the_development_omits(monkeypatch: pytes
     error = _errors("drum-samples", monkeypatch)
     assert max(error["searches together, 256"], error["one by one, 16"]) < 1e-13
     assert 1e-7 < error["textbook scan, step 1 deg, 256"] < 1e-4 < error["textbook development, 0.25 deg, 256"] < 0.1
+
+
+@pytest.mark.slow
+def test_machines_family_sums_the_torques_of_formulas(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("machines", monkeypatch)
+    assert error["torque of the machine, 1"] < 1e-13
+    assert error["phases: tightest circle of relations, 1"] < 1e-9
+    assert 1e-8 < error["textbook differences of the motion, step 0.001, 1"] < 1e-5
+    assert 0.01 < error["textbook crank with two harmonics, 1"] < 0.1
+    assert abs(float(machines.margin(machines.by_milp())) - machines.MARGIN) < 1e-9
 
 
 @pytest.mark.slow
