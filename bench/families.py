@@ -28,6 +28,7 @@ FAMILIES = {
     "loads": "loads:family",
     "studio": "studio:family",
     "planar": "planar:family",
+    "planar-samples": "planar:samples",
     "cam-size": "sizes:cams",
     "crank-rocker": "sizes:rockers",
     "cam-samples": "samples:cams",

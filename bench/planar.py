@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
+from gearlink.core.machines.planar.spec import PlanarSpec
+from gearlink.core.studies.tolerance_study.problem import Problem, problem
+from gearlink.core.studies.tolerance_study.samples import design_of, rows_of
 
 Array = NDArray[np.float64]
 TURN = 2.0 * math.pi
@@ -96,13 +99,14 @@ def _meeting(one: Any, radius: float, other: Any, further: float) -> Any:
     return one + way * (along + 1j * (radius**2 * square - along**2) ** 0.5) / square
 
 
-def dyads(turn: Any) -> Any:
+def dyads(turn: Any, sizes: Sequence[Any] = (CRANK, COUPLER, ROCKER, ARM)) -> Any:
     """G - F from e^(i q), numbers of numpy or of mpmath."""
-    pin = CRANK * turn
-    joint = _meeting(pin, COUPLER, FRAME + 0j, ROCKER)
-    on_coupler = pin + ON_COUPLER * (joint - pin) / COUPLER
-    on_rocker = FRAME + ON_ROCKER * (joint - FRAME) / ROCKER
-    return _meeting(on_coupler, ARM, on_rocker, OUTPUT) - on_rocker
+    crank, coupler, rocker, arm = sizes
+    pin = crank * turn
+    joint = _meeting(pin, coupler, FRAME + 0j, rocker)
+    on_coupler = pin + ON_COUPLER * (joint - pin) / coupler
+    on_rocker = FRAME + ON_ROCKER * (joint - FRAME) / rocker
+    return _meeting(on_coupler, arm, on_rocker, OUTPUT) - on_rocker
 
 
 def _angle(q: Array) -> Array:
@@ -166,3 +170,97 @@ def error_of(found: Array, q: Array) -> float:
                 off -= 2 * mp.pi * mp.nint(off / (2 * mp.pi))
             worst = max(worst, float(abs(off) / max(1, abs(true))))
     return worst
+
+
+# As manufactured
+
+
+SOURCES = {"links.crank[2]": CRANK, "links.coupler.C[0]": COUPLER, "links.rocker.C[0]": ROCKER, "links.arm[2]": ARM}
+ASKED = ("output.swing", "output.speed_ratio_max")
+
+
+def samples(quick: bool) -> Family:
+    """The table of the samples."""
+    size, few = 256, 3
+    columns = _columns(size)
+    some = {key: column[:few] for key, column in columns.items()}
+    study = _study()
+    ways: list[tuple[str, int, Callable[[], Array]]] = [
+        ("at once", size, partial(_at_once, study, columns)),
+        ("one by one", few, partial(_one_by_one, study, some)),
+        *(
+            (f"textbook scan, {n} positions", size, partial(by_scan, columns, n))
+            for n in ((360,) if quick else (90, 360, 1440))
+        ),
+    ]
+    methods = [Method(name, count, run, _off(run(), columns)) for name, count, run in ways]
+    return Family(
+        "planar-samples",
+        "Samples of a Watt six-bar as manufactured: swing and maximum speed ratio of the output",
+        "relative",
+        f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
+        measure(methods, numpy_pass(size), size, 3),
+        (
+            "four lengths +-0.02 mm; gearlink: as in a tolerance study, with the checks of every sample",
+            "textbook scan: the two dyads of all samples at equal steps of the crank, speed from a Fourier series",
+            "error: of both quantities, against extremes in 40 digits",
+        ),
+    )
+
+
+def _columns(size: int) -> dict[str, Array]:
+    off = np.random.default_rng(4).normal(size=(len(SOURCES), size)) * 0.0067
+    return {key: length + by for (key, length), by in zip(SOURCES.items(), off, strict=True)}
+
+
+def _study() -> Problem:
+    """A tolerance study of the file."""
+    data = made().spec.model_dump(exclude_unset=True, by_alias=True)
+    sources = {key: {"plus_minus": 0.02} for key in SOURCES}
+    return problem(PlanarSpec.model_validate(data | {"tolerance": {"sources": sources}}))
+
+
+def _at_once(study: Problem, columns: dict[str, Array]) -> Array:
+    assert study.axis is not None
+    found = study.axis.evaluate(columns, ASKED).quantities
+    return np.array([found[name] for name in ASKED]).T
+
+
+def _one_by_one(study: Problem, columns: dict[str, Array]) -> Array:
+    designs = [design_of(study, row) for row in rows_of(columns)]
+    return np.array([[one.quantity(name).value for name in ASKED] for one in designs])
+
+
+def by_scan(columns: dict[str, Array], positions: int) -> Array:
+    """Swing [deg] and maximum speed ratio at equal steps."""
+    q = np.linspace(0.0, TURN, positions, endpoint=False)
+    angle = np.angle(dyads(np.exp(1j * q), [column[:, None] for column in columns.values()]))
+    order = np.fft.rfftfreq(positions, 1.0 / positions)
+    speed = np.fft.irfft(1j * order * np.fft.rfft(angle), positions)
+    return np.array([np.degrees(np.ptp(angle, axis=1)), speed.max(axis=1)]).T
+
+
+def _off(found: Array, columns: dict[str, Array]) -> float:
+    """Maximum relative error of the first samples."""
+    worst = 0.0
+    for i in range(3):
+        for k, true in enumerate(extremes(tuple(float(column[i]) for column in columns.values()))):
+            worst = max(worst, float(abs(found[i, k] / true - 1)))
+    return worst
+
+
+@cache
+def extremes(sizes: tuple[float, ...]) -> tuple[Any, Any]:
+    """Swing [deg] and maximum speed ratio in 40 digits."""
+    mp = mpmath(40)
+    near = np.linspace(0.0, TURN, 720, endpoint=False)
+    angle = np.angle(dyads(np.exp(1j * near), sizes))
+
+    def of(q: Any) -> Any:
+        return mp.arg(dyads(mp.expj(q), [mp.mpf(each) for each in sizes]))
+
+    def at(order: int, i: int) -> Any:
+        return mp.diff(of, mp.findroot(lambda q: mp.diff(of, q, order + 1), float(near[i])), order)
+
+    swing = at(0, int(angle.argmax())) - at(0, int(angle.argmin()))
+    return mp.degrees(swing), at(1, int(np.gradient(angle).argmax()))

@@ -106,6 +106,13 @@ def test_machines_family_sums_the_torques_of_formulas(monkeypatch: pytest.Monkey
 
 
 @pytest.mark.slow
+def test_planar_samples_family_finds_at_once_what_each_finds_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = _errors("planar-samples", monkeypatch)
+    assert max(error["at once, 256"], error["one by one, 3"]) < 1e-12
+    assert 1e-6 < error["textbook scan, 360 positions, 256"] < 1e-2
+
+
+@pytest.mark.slow
 def test_motion_laws_family_shows_what_lies_between_the_places(monkeypatch: pytest.MonkeyPatch) -> None:
     error = _errors("motion-laws", monkeypatch)
     assert 0.0 < error["optimal law, proved, 1"] < 1e-5 < error["scipy linprog, 100 places, 1"] < 1e-2
