@@ -109,7 +109,8 @@ def follower_cam(design: Any) -> Makers:
         found["return_cam"] = lambda: disc_cam("return_cam", cams.back)
     if cutter is not None:
         path = replace(cams.main, name="cutter path", roller_radius=cams.main.roller_radius - cutter)
-        found["cutter"] = lambda: disc_cam("cutter", path)
+        words = f"path of a cutter of radius {cutter:.9g} mm; roller radius {cams.main.roller_radius:.9g} mm"
+        found["cutter"] = lambda: disc_cam("cutter", path, words)
     return found
 
 
@@ -676,9 +677,11 @@ _TURN = 2.0 * math.pi
 _INSIDE = 1e-12
 
 
-def disc_cam(name: str, cam: DiscCam) -> Part:
+def disc_cam(name: str, cam: DiscCam, words: str = "") -> Part:
     """A closed cam: profile and pitch curve over a revolution, a vertex at each joint of its law.
 
+    Parameters
+        words : what it is, where the offset from the pitch curve is not the radius of the roller
     Raises
         NoSolution - where the cam does not exist
     """
@@ -697,7 +700,8 @@ def disc_cam(name: str, cam: DiscCam) -> Part:
         closed=True,
         circles=(Circle("BASE_CIRCLE", cam.min_radius),) if cam.min_radius > 0.0 else (),  # else the roller covers it
         notes=(
-            f"roller radius {cam.roller_radius:.9g} mm, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
+            f"{words or f'roller radius {abs(cam.roller_radius):.9g} mm'}, "
+            f"cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
             "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
             "base circle: the largest about the axis inside the profile",
         ),

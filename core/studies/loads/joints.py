@@ -68,14 +68,26 @@ def _without_noise(f: Function, size: float, phi: Reals) -> Reals:
 
 
 def _changes(f: Function, zeros: list[float], size: float, machine: Machine) -> list[float]:
-    """The places with opposite signs on both sides; one where f comes from or goes to nothing is none."""
+    """The places with opposite signs on both sides; in between f may be 0 over a way, as in the dwell of a cam."""
     if not zeros:
         return []
     sides = np.array([place + step for place in zeros for step in (-_STEP, _STEP)])
-    values = f(sides if machine.stroke else np.mod(sides, machine.period))
+    values = _without_noise(f, size, sides if machine.stroke else np.mod(sides, machine.period))
     before, after = values[::2], values[1::2]
-    changes = (before * after < 0.0) & (np.minimum(np.abs(before), np.abs(after)) > NOISE * size)
-    return [place for place, each in zip(zeros, changes, strict=True) if each]
+    if not np.all(before * after):
+        signs = _signs_between(f, zeros, size, machine)
+        before, after = signs[:-1], signs[1:]
+    return [place for place, each in zip(zeros, before * after < 0.0, strict=True) if each]
+
+
+def _signs_between(f: Function, zeros: list[float], size: float, machine: Machine) -> Reals:
+    """Sign of f before the first zero, between them and behind the last one; 0 where it is nothing all the way."""
+    grid = np.linspace(0.0, machine.period, 720 * machine.turns + 1)
+    values, of = _without_noise(f, size, grid), np.searchsorted(zeros, grid)
+    ways = [values[of == k] for k in range(len(zeros) + 1)]
+    if not machine.stroke:  # the last way goes on as the first one
+        ways[0] = ways[-1] = np.concatenate((ways[-1], ways[0]))
+    return np.array([np.sign(way[np.argmax(np.abs(way))]) if way.size else 0.0 for way in ways])
 
 
 BALL, ROLLER = 3.0, 10.0 / 3.0
