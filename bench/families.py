@@ -35,6 +35,7 @@ FAMILIES = {
     "drum-samples": "samples:drums",
     "motion-laws": "laws:family",
     "machines": "machines:family",
+    "kinds": "start_up:kinds",
 }
 
 

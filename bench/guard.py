@@ -13,8 +13,12 @@ from pathlib import Path
 from bench.families import measured
 
 RECORD = Path(__file__).resolve().parents[1] / "docs" / "benchmarks.json"
-FAMILIES = ("start-up", "pictures", "four-bar", "involute", "press", "studies")
-"""Start-up, reports and pictures, kernels: those whose quick tables have rows of the whole ones."""
+FAMILIES = (
+    *("start-up", "pictures", "four-bar", "involute", "press", "studies"),
+    *("planar", "planar-samples", "cam-size", "crank-rocker", "cam-samples", "drum-samples"),
+    *("motion-laws", "machines", "kinds"),
+)
+"""Start-up, reports and pictures, kernels, kinds: those whose quick tables have rows of the whole ones."""
 OTHERS = ("tan a - a", "brentq", "textbook", "scipy", "Typer with", "python, doing", "Newton", "double-double")
 """How the names of methods begin that are there for comparison: nobody here makes them slower."""
 ALLOWED = 1.25

@@ -35,7 +35,7 @@ def family(quick: bool) -> Family:
         "Motion laws: optimal law of degree 15, and residual vibration of a cycloid at 16 frequencies",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {PASS} numbers",
-        measure(methods, numpy_pass(PASS), 1, 3 if quick else 5),
+        measure(methods, numpy_pass(PASS), 1, 5 if quick else 9),
         (
             "least jerk with an acceleration of 6: error by which jerk or acceleration of the law are above the least "
             f"jerk of a programme with {FINEST} places, or above 6",

@@ -34,7 +34,7 @@ def family(quick: bool) -> Family:
         "Machines: torque of 10 slider-cranks on one shaft at 360 positions, and 12 free phases",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {ROWS} numbers",
-        measure(methods, numpy_pass(ROWS), 1, 3 if quick else 5),
+        measure(methods, numpy_pass(ROWS), 1, 5 if quick else 9),
         (
             "torque: members at ratios of 1, -1 and 2 with phases of their own; error over the largest torque",
             "textbook crank: the slider's motion by its first two harmonics",

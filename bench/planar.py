@@ -199,7 +199,7 @@ def samples(quick: bool) -> Family:
         "Samples of a Watt six-bar as manufactured: swing and maximum speed ratio of the output",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
-        measure(methods, numpy_pass(size), size, 3),
+        measure(methods, numpy_pass(size), size, 3 if quick else 7),
         (
             "four lengths +-0.02 mm; gearlink: as in a tolerance study, with the checks of every sample",
             "textbook scan: the two dyads of all samples at equal steps of the crank, speed from a Fourier series",

@@ -99,7 +99,7 @@ def cams(quick: bool) -> Family:
         "Samples of a disc cam as manufactured: maximum pressure angle and minimum curvature radius",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
-        measure(methods, numpy_pass(size), size, 3 if quick else 5),
+        measure(methods, numpy_pass(size), size, 5 if quick else 9),
         (
             "prime radius 60 mm and offset 5 mm +-0.02 mm; lift 12 mm by polynomial 3-4-5 in 80 deg, and back",
             "gearlink: from the changed numbers to both quantities, each design validated and its extremes refined",
@@ -212,7 +212,7 @@ def drums(quick: bool) -> Family:
         "Samples of a cylindrical cam: maximum pressure angle and minimum wall factor of the track",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
-        measure(methods, numpy_pass(size), size, 3 if quick else 5),
+        measure(methods, numpy_pass(size), size, 5 if quick else 9),
         (
             "drum of radius 60 mm and roller of 18 mm +-0.02 mm, track 12 mm deep; lift 40 mm in 110 deg, and back",
             "wall factor: a wall of the track, in space, is regular where it is positive",

@@ -39,7 +39,7 @@ def cams(quick: bool) -> Family:
         "Minimum disc cam: prime radius for a pressure angle with the best offset, and for a curvature radius",
         "mm",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {PASS} numbers",
-        measure(methods, numpy_pass(PASS), 1, 3 if quick else 5),
+        measure(methods, numpy_pass(PASS), 1, 5 if quick else 9),
         (
             "lift 30 mm by polynomial 3-4-5 in 90 deg, back in 120; limits 30 deg, or 60 mm without an offset",
             "gearlink: from the validated spec to the prime radius, both limits looked at; error against 40 digits",
@@ -194,7 +194,7 @@ def rockers(quick: bool) -> Family:
         "Crank-rocker: coupler of the best transmission angle for a swing, and the start of a function's least error",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {PASS} numbers",
-        measure(methods, numpy_pass(PASS), 1, 3 if quick else 5),
+        measure(methods, numpy_pass(PASS), 1, 5 if quick else 9),
         (
             "swing 80 deg, time ratio 10/9: error of coupler over crank against the cubic in 40 digits",
             "log x, x = 1 .. 2, both swings 60 deg, start directions free: by what share the structural error is above "

@@ -45,6 +45,16 @@ COMMANDS = {
     "schema": ["schema", "gear-pair"],
     "new": ["new", "gear-pair"],
 }
+KINDS = {
+    "analyze, planar mechanism": ["analyze", "planar_watt.yaml"],
+    "analyze, motion law": ["analyze", "quiet_law.yaml"],
+    "analyze, machine of 8 members": ["analyze", "sheet_press.yaml"],
+    "cam, disc cam": ["cam", "lift_cam.yaml"],
+    "cam, cylindrical cam": ["cam", "barrel_cam.yaml"],
+    "synth swing, crank-rocker": ["synth", "swing", "crank_rocker.yaml"],
+    "loads, machine of 8 members": ["loads", "sheet_press.yaml"],
+    "register, swing gripper": ["register", "swing_gripper_register.yaml"],
+}
 RUN = "import sys; from gearlink.cli.main import main; sys.exit(main())"
 
 
@@ -58,24 +68,34 @@ def designs() -> Path:
 def family(quick: bool) -> Family:
     """The table of the family."""
     with TemporaryDirectory() as folder:
-        minimal, naive = Path(folder) / "minimal.py", Path(folder) / "naive.py"
-        minimal.write_text(MINIMAL, encoding="utf-8")
+        naive = Path(folder) / "naive.py"
         naive.write_text(NAIVE, encoding="utf-8")
-        compile_all()
         methods = [
             Method("python, doing nothing", 1, process("-c", "pass")),
             Method("Typer with scipy and pyplot at the top", 1, process(str(naive))),
             *(Method(name, 1, process("-c", RUN, *arguments)) for name, arguments in COMMANDS.items()),
         ]
-        rows = measure(methods, process(str(minimal)), 1, 5 if quick else 15)
-    return Family(
-        "start-up",
-        "Start-up: the whole process of a command",
-        "none",
-        "a minimal Typer program with one command",
-        rows,
-        ("the examples; modules compiled beforehand, as an installed package's are",),
-    )
+        rows = _over_minimal(methods, 5 if quick else 15)
+    return Family("start-up", "Start-up: the whole process of a command", "none", _MINIMAL, rows, (_COMPILED,))
+
+
+_MINIMAL = "a minimal Typer program with one command"
+_COMPILED = "the examples; modules compiled beforehand, as an installed package's are"
+
+
+def kinds(quick: bool) -> Family:
+    """The table of commands of the kinds that the start-up does not have."""
+    methods = [Method(name, 1, process("-c", RUN, *arguments, "--format", "json")) for name, arguments in KINDS.items()]
+    title = "Planar mechanisms, cams, crank-rockers, machines, register: the whole process of a command, JSON"
+    return Family("kinds", title, "none", _MINIMAL, _over_minimal(methods, 3 if quick else 9), (_COMPILED,))
+
+
+def _over_minimal(methods: list[Method], rounds: int) -> tuple[Row, ...]:
+    with TemporaryDirectory() as folder:
+        minimal = Path(folder) / "minimal.py"
+        minimal.write_text(MINIMAL, encoding="utf-8")
+        compile_all()
+        return measure(methods, process(str(minimal)), 1, rounds)
 
 
 def compile_all() -> None:
