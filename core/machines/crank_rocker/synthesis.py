@@ -270,7 +270,8 @@ class Generated(NamedTuple):
 _PLACES = tuple(0.5 - 0.5 * math.cos(math.radians(30.0 * k)) for k in (1, 3, 5))
 """Shares of the swing at which a polynomial through three points is nearest to a function: P. L. Chebyshev's."""
 _STARTS = 24  # directions of crank and rocker that are tried, before the best is refined
-_LAST_STEP = math.radians(0.01)
+_LAST_STEP = math.radians(0.001)
+_DESCENTS = 8
 
 
 def generated(wanted: Wanted, start: float, zero: float, least: float) -> Generated | None:
@@ -312,7 +313,8 @@ def generated(wanted: Wanted, start: float, zero: float, least: float) -> Genera
 
 
 def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: float) -> Generated:
-    """The start of least structural error: of what is not given a grid of directions, then halved steps about its best.
+    """The start of least structural error: of what is not given a grid of directions, then downhill from those of its
+    best that lie apart.
 
     Raises
         NoSolution - where no linkage goes through the function
@@ -326,26 +328,58 @@ def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: 
             key="function",
             fix="take smaller swings, or lower limits.transmission_angle",
         )
-    best = min(found, key=lambda one: one.error)
-    step = math.pi / _STARTS
-    ways = [(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
-    while step > _LAST_STEP:
-        beside = [
-            generated(
-                wanted, best.start + x * step * (given[0] is None), best.zero + y * step * (given[1] is None), least
-            )
-            for x, y in ways
-        ]
-        nearer = min((one for one in beside if one is not None), key=lambda one: one.error)
-        if nearer.error < best.error:
-            best = nearer
-        else:
-            step *= 0.5
+    best = min((_descended(wanted, one, given, least) for one in _apart(found)), key=lambda one: one.error)
     offsets = through_pairs(best.pairs, 1.0)
     turns = math.floor((best.start + offsets.crank_offset) / (2.0 * math.pi)) * (given[0] is None)
     if turns:  # the first turn of the crank is meant
         best = generated(wanted, best.start - 2.0 * math.pi * turns, best.zero, least) or best
     return best
+
+
+def _apart(found: list[Generated]) -> list[Generated]:
+    """The best of the grid, each farther than two of its steps from all that are better."""
+    chosen: list[Generated] = []
+    for one in sorted(found, key=lambda one: one.error):
+        ways = (max(_between(one.start, other.start), _between(one.zero, other.zero)) for other in chosen)
+        if all(way > 4.5 * math.pi / _STARTS for way in ways):
+            chosen.append(one)
+            if len(chosen) == _DESCENTS:
+                break
+    return chosen
+
+
+def _between(one: float, other: float) -> float:
+    """Angle between two directions, of which opposite ones give the same linkage."""
+    return abs(math.remainder(one - other, math.pi))
+
+
+def _descended(wanted: Wanted, best: Generated, given: tuple[float | None, float | None], least: float) -> Generated:
+    """The least structural error downhill from a start, in what is not given.
+
+    Source
+        J. A. Nelder and R. Mead, The Computer Journal 7 (1965) 308, by scipy: the error has an edge, not a slope, at
+        its minimum, and the linkages that keep the transmission angle end beside it
+    """
+    from scipy.optimize import minimize
+
+    here = [best.start, best.zero]
+    free = [k for k, each in enumerate(given) if each is None]
+
+    def at(x: Reals) -> Generated | None:
+        start, zero = (x[free.index(k)] if k in free else here[k] for k in (0, 1))
+        return generated(wanted, float(start), float(zero), least)
+
+    def error(x: Reals) -> float:
+        found = at(x)
+        return math.tau if found is None else found.error
+
+    if not free:
+        return best
+    first = np.array([here[k] for k in free])
+    simplex = np.vstack([first, first + math.pi / _STARTS * np.eye(len(free))])
+    options = {"initial_simplex": simplex, "xatol": _LAST_STEP, "fatol": _LAST_STEP**2}
+    found = at(minimize(error, first, method="Nelder-Mead", options=options).x)
+    return best if found is None or found.error > best.error else found
 
 
 # The designs

@@ -356,3 +356,14 @@ def test_a_function_starts_in_the_first_turn_of_the_crank() -> None:
     log = {"name": "log", "x": [1, 2], "input_swing": 60, "output_swing": -60, "frame": 100}
     found = design({"kind": "crank-rocker", "name": "f", "function": log}, command="synth function")
     assert 0.0 <= found.raw("function_start") < 2.0 * math.pi
+
+
+@pytest.mark.slow
+def test_the_best_start_is_not_the_best_of_the_grid() -> None:
+    """log x over 60 deg of both: a valley between the directions that are tried; 0.00733 deg by another search."""
+    task = {"name": "log", "x": [1, 2], "input_swing": 60, "output_swing": 60, "frame": 100}
+    made = design(
+        {"kind": "crank-rocker", "function": task, "limits": {"transmission_angle": 30}}, command="synth function"
+    )
+    assert math.degrees(made.structural_error) == pytest.approx(0.00733, abs=2e-5)
+    assert made.min_transmission_angle >= math.radians(30)
