@@ -498,7 +498,7 @@ def _export(
 
     STEP (solids) needs cadquery-ocp: pip install cadquery-ocp. REXS 1.7 is one file for all gears.
 
-    Exit status 1: the files were written, but a roller cuts into its profile.
+    Exit status 1: the files were written, but a check of the design fails.
 
     Example: gearlink export designs/ty460.yaml --part main_cam --as dxf --as svg
     """

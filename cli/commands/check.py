@@ -190,11 +190,16 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
         ]
         write_rows([_HEADS, *rows], sys.stdout)
         return
-    words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "no checks"
+    words = ", ".join(_counted(count, status) for status, count in counts.items() if count) or "no checks"
     verdict = f"{amount(designs, 'design')}: {words}"
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:
         print("`gearlink explain CODE` says what a code means and how to repair the design", file=sys.stderr)
+
+
+def _counted(count: int, status: str) -> str:
+    """Errors and faults are things, the others verdicts."""
+    return amount(count, status) if status in ("error", "fault") else f"{count} {status}"
 
 
 def _as_results(found: Sequence[Finding]) -> dict[str, Any]:

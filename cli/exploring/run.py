@@ -528,7 +528,7 @@ def _why(study: Exploration, console: object) -> None:
     from gearlink.cli.render.terminal import grid_for, show_grid
 
     grid = grid_for(console)  # type: ignore[arg-type]
-    for head in ("fails", "code", "designs", "alone", "nearest miss", "file of it"):
+    for head in ("why", "code", "designs", "alone", "nearest miss", "file of it"):
         grid.add_column(head, justify="right" if head in ("designs", "alone") else "left", overflow="fold")
     for place, name, code, miss in rows:
         unit = "" if miss.unit == "1" else f" {miss.unit}"

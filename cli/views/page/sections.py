@@ -367,8 +367,13 @@ def charts(made: Figure) -> list[dict[str, Any]]:
         x_range = [float(value) for value in axes.get_xlim()]
         shown = {"box": [round(side, 2) for side in sides], "x": x_range, "y": [float(low), float(high)]}
         names = {"over": _over(axes, panels), "log": axes.get_yscale() == "log", "unit": _unit(axes.get_ylabel())}
-        found.append({**shown, **names, **_times(axes), "curves": curves})
+        found.append({**shown, **names, **_times(axes), "curves": [] if _has_rows(axes) else curves})
     return found
+
+
+def _has_rows(axes: Axes) -> bool:
+    """Whether the y axis names rows, in which curves are drawn to no scale."""
+    return any(re.search(r"[a-z]{2}", label.get_text()) for label in axes.get_yticklabels())
 
 
 def _times(axes: Axes) -> dict[str, Any]:

@@ -226,7 +226,8 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
             raise _refuse(f"cam.{other}", message)
         if (getattr(cam, wanted) is None) == (cam.size is None):
             both = cam.size is not None
-            raise _refuse("cam", f"{wanted} and size exclude each other" if both else f"give cam.{wanted}, or cam.size")
+            message = f"{wanted} and size exclude each other\ngive one of them; --set cam.size=null removes the size"
+            raise _refuse("cam", message if both else f"give cam.{wanted}, or cam.size")
         return self
 
     @model_validator(mode="after")

@@ -26,7 +26,8 @@ from gearlink.cli.commands import watch
 from gearlink.cli.commands.watch import Board, _make, run_watch, served
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
-from gearlink.cli.views.page.sections import Remembered, sheet, whole_page
+from gearlink.cli.views.figures import write
+from gearlink.cli.views.page.sections import Remembered, charts, sheet, whole_page
 
 
 def test_news_are_what_has_changed() -> None:
@@ -244,3 +245,10 @@ def test_a_newer_file_ends_the_making_of_an_older_page(tmp_path: Path) -> None:
 def test_watch_wants_a_file(source: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run_watch(source, Options()) == 2
     assert words in capsys.readouterr().err
+
+
+def test_rows_that_are_drawn_to_no_scale_give_a_cursor_no_values() -> None:
+    """The rows of a machine's timing chart: 2.86 stood there where the suckers are at 12 mm."""
+    (chart,) = charts(write.draw("analyze", design("sheet_feeder")))
+    assert (chart["over"], chart["curves"]) == ("machine angle [deg]", [])
+    assert all(each["curves"] for each in charts(write.draw("cam", design("lift_cam"))))
