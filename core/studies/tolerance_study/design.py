@@ -575,7 +575,7 @@ class ToleranceStudy(Design):
             ("quantities", "requirements", "contributions"),
         )
     }
-    key_tables = ("requirements", "contributions")
+    key_tables = ("requirements", "contributions", "not_sampled")
     extra_tables = ("corners", "allocation", "band", "not_sampled")
     advises = False
 

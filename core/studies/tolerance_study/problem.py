@@ -77,7 +77,9 @@ class Problem:
             found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
         found = tuple(one for one in found if one.kind != "gear")
         if not found:
-            raise no("GL170", "these parts count in `register` alone\nname a size of the file", "sources")
+            message = f"{' and '.join(given)} {'count' if len(given) > 1 else 'counts'} in `register` alone"
+            message += "\nname a size of the file"
+            raise no("GL170", message, "sources")
         for one in found:
             self._possible(one)
         return found
@@ -169,8 +171,12 @@ class Problem:
 
     @cached_property
     def not_sampled(self) -> list[tuple[str, str]]:
-        """Checks of the file that no sample is judged by, and commands whose checks none is, each with the reason."""
-        return [*self._of_requests(), *self._of_other_commands()]
+        """What of the file no sample knows, with the reason: sources, checks, commands with checks of their own."""
+        of_register = [key for key, one in self.section.sources.items() if self._is_of_register(key, one)]
+        why = "no sample differs by it: it counts in `register` alone"
+        if "errors" in type(self.asked.spec()).model_fields:
+            why += ", or as errors.profile here, with lift_error_worst in require"
+        return [*((key, why) for key in of_register), *self._of_requests(), *self._of_other_commands()]
 
     def _of_requests(self) -> Iterator[tuple[str, str]]:
         """Checks that judge what the search was asked for: its results alone are made, and are not sought again."""

@@ -138,7 +138,7 @@ def test_cams_are_placed_once() -> None:
 
 
 def test_what_counts_in_a_register_alone_makes_no_samples() -> None:
-    with pytest.raises(Exception, match="count in `register` alone") as found:
+    with pytest.raises(Exception, match="counts in `register` alone") as found:
         study("ty460", sources={"pins.A": {"clearance": [0.0, 0.02]}}, samples=16).raw("yield")
     assert found.value.faults[0].code == "GL170"
 
