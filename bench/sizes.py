@@ -252,10 +252,10 @@ def _functions(quick: bool) -> list[Method]:
         return best_start(LOG, (None, None), LEAST).error
 
     if quick:
-        return [Method("function: grid and halved steps", 1, own)]
+        return [Method("function: grid, then downhill", 1, own)]
     starts = [(0.5 * math.pi * k, 0.5 * math.pi * k + 1.0) for k in range(4)]
     ways: list[tuple[str, Callable[[], float]]] = [
-        ("function: grid and halved steps", own),
+        ("function: grid, then downhill", own),
         *((f"scipy Nelder-Mead, to {h:g}", partial(by_nelder_mead, starts, h)) for h in (1e-2, 1e-6)),
     ]
     least = by_nelder_mead(starts, 1e-13)
