@@ -126,7 +126,7 @@ class DiscCamDesign(OfFollower, Design):
         "pressure-angle": (*_ENLARGED, *either("follower.offset", "follower.center_distance")),
         "cam-undercut": (*_ENLARGED, down("follower.roller_radius")),
         "shaft-clearance": (*_ENLARGED, down("cam.shaft_radius")),
-        "lift-off": (up("spring.preload", step=1.0), up("spring.rate")),
+        "lift-off": (up("spring.preload", step=1.0), up("spring.least_force", step=1.0), up("spring.rate")),
         "outer-wall": (*_ENLARGED, down("follower.roller_radius")),
         "cutter-radius": (down("cam.cutter_radius"),),
     }
@@ -433,9 +433,11 @@ class DiscCamDesign(OfFollower, Design):
         status: Status = "fail" if speed <= spec.speed else "warn" if speed < _RESERVE * spec.speed else "pass"
         fix = ""
         if status != "pass":
-            more = safely_above(closing.preload_for(_RESERVE * closing.speed))
+            more, key = closing.preload_for(_RESERVE * closing.speed), "preload"
+            if spec.spring is not None and spec.spring.least_force is not None:  # the preload follows from it
+                more, key = more - (closing.preload or 0.0) + spec.spring.least_force, "least_force"
             unit = "N m" if spec.oscillates else "N"
-            fix = f"raise spring.preload to {more} {unit} (10 % speed margin)"
+            fix = f"raise spring.{key} to {safely_above(more)} {unit} (10 % speed margin)"
         at = f"cam angle {short(math.degrees(found.place))} deg"
         most = _RESERVE * spec.speed
         yield LIFT_OFF.check(
