@@ -517,7 +517,7 @@ class Making:
         return {
             "profile": given.profile * share,
             "run_out": 0.5 * given.run_out * share,
-            "key": np.abs(self.cams.motion.evaluate(phi, 1)[1]) * math.radians(given.key),
+            "key": np.abs(self.cams.motion.evaluate(phi, 1)[1]) * np.radians(given.key),
             "roller_radius": roller * share,
         }
 

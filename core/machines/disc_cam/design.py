@@ -704,7 +704,7 @@ def _found(designs: Sequence[DiscCamDesign], spec: DiscCamSpec, names: Sequence[
     keep(many.cams, motion=first.cams.motion)
     keep(many.cams, place=Place(*map(column, zip(*(design.cams.place for design in designs), strict=True))))
     wanted = {"max_pressure_angle", "max_radius", "min_radius"}.intersection(names)
-    if spec.cam.shaft_radius:
+    if np.any(spec.cam.shaft_radius):
         wanted.add("min_radius")
     if spec.is_flat:
         _give(many, designs, "cams.flat", "min_curvature_radius", "contact_places", *wanted)

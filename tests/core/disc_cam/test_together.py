@@ -54,7 +54,9 @@ CHANGES = {
     "follower.roller_radius": 0.3, "follower.offset": 1.0, "follower.mass": 0.1, "follower.arm": 1.0,
     "follower.center_distance": 1.0, "follower.inertia": 0.002, "follower.face_offset": 0.3, "cam.prime_radius": 1.0,
     "cam.base_radius": 1.0, "spring.rate": 0.2, "errors.profile": 0.001, "return_roller.radius": 0.3,
-    "return_roller.arm": 0.3,
+    "return_roller.arm": 0.3, "cam.shaft_radius": 0.5, "cam.cutter_radius": 0.1,
+    "errors.run_out": 0.001, "errors.key": 0.002, "errors.roller_radius": 0.001, "spring.preload": 1.0,
+    "spring.least_force": 2.0,
 }  # fmt: skip
 
 
