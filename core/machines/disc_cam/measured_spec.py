@@ -155,10 +155,10 @@ class MeasuredCamSpec(TolerancedSpec):
 
     @property
     def disc_follower(self) -> OscillatingRoller | TranslatingRoller:
-        """The follower in the words of a disc cam."""
+        """The follower in the words of a disc cam, of numbers that have been validated or of columns of them."""
         given = self.follower
         if isinstance(given, TranslatingFollower):
-            return TranslatingRoller(
+            return TranslatingRoller.model_construct(
                 type="translating-roller",
                 roller_radius=self.roller_radius,
                 direction=given.direction,
@@ -166,7 +166,7 @@ class MeasuredCamSpec(TolerancedSpec):
                 mass=given.mass,
             )
         pivot = complex(*given.pivot)
-        return OscillatingRoller(
+        return OscillatingRoller.model_construct(
             type="oscillating-roller",
             roller_radius=self.roller_radius,
             pivot_direction=math.degrees(cmath.phase(pivot)),

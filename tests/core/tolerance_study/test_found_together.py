@@ -29,7 +29,7 @@ def _value(data: Any, path: str) -> float:
 def _pairs(name: str, count: int) -> tuple[str, list[tuple[Any, Any]]]:
     """Designs alone, and the same found together."""
     (command, widths), random_numbers, data = FILES[name], random.Random(5), factory.worked(name)
-    data = {key: value for key, value in data.items() if key not in ("loads", "tolerance", "register")}
+    data = {key: value for key, value in data.items() if key not in ("tolerance", "register")}
     base = Base(data, command)
     rows = [[(k, _value(data, k) + random_numbers.uniform(-w, w)) for k, w in widths.items()] for _ in range(count)]
     alone, many = [base.design(row) for row in rows], [base.design(row) for row in rows]
