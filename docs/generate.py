@@ -310,7 +310,7 @@ _VALIDATION = """# Validation
 
 Published numbers, and what gearlink computes for them. `gearlink verify` computes all of them again where it is
 installed: {cases} cases with {numbers} numbers, of which {met} are met. This page is written by `make docs` from the
-files in cli/verification/cases, which go with the program.
+files in cli/verification/sources, which go with the program.
 
 A number is met where the difference is at most half a unit of the last digit that its source prints. Where another
 limit is taken, the reason is given below the table. Computed values have a digit more than the published ones.

@@ -21,7 +21,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any, NamedTuple
 
-FOLDER = Path(__file__).parent / "cases"
+FOLDER = Path(__file__).parent / "sources"
 
 
 class Number(NamedTuple):

@@ -1,0 +1,1 @@
+"""Data: the published cases, a file for each source."""
