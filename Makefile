@@ -114,7 +114,7 @@ bench-guard: $(READY)
 
 # Tests that share nothing: each goes to the next free process.
 stress: $(READY)
-	$(PYTEST) -n auto --maxprocesses 4 --dist worksteal -m stress tests/stress -rP
+	$(PYTEST) -n auto --maxprocesses 4 --dist worksteal -m stress -rP
 
 # The newest versions that pyproject.toml allows, for every Python and platform that it names, with the hashes of their
 # files: of all that the Makefile installs, and of what the program alone needs (action.yml).

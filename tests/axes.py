@@ -6,11 +6,15 @@ import json
 from typing import Any
 
 import numpy as np
+import pytest
 
 from gearlink.core.studies.explore.chunks import evaluated, one_by_one
 from gearlink.core.studies.explore.preparing import problem
 from gearlink.core.studies.explore.problem import Problem
 from gearlink.core.studies.study.spec import StudySpec
+
+SOAK = pytest.param(16384, marks=pytest.mark.stress)
+"""So many designs of a study are compared by `make stress` alone: the class takes a millisecond or two of each."""
 
 
 def sampled(

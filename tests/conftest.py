@@ -93,7 +93,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Of a test marked `quick(count)` so many cases stay in `make test`, from the first on evenly spread."""
     cases: dict[tuple[Path, str], list[pytest.Item]] = {}
     for item in items:
-        if item.get_closest_marker("quick") and not item.get_closest_marker("slow"):
+        if item.get_closest_marker("quick") and not any(map(item.get_closest_marker, ("slow", "stress"))):
             cases.setdefault((item.path, item.nodeid.partition("[")[0]), []).append(item)
     for found in cases.values():
         (count,) = next(mark.args for mark in [found[0].get_closest_marker("quick")] if mark)

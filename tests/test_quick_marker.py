@@ -29,6 +29,11 @@ def test_ten(i): ...
 def test_slow_ones_do_not_count(i): ...
 
 
+@three
+@pytest.mark.parametrize("i", [*range(8), *(pytest.param(i, marks=pytest.mark.stress) for i in (8, 9))])
+def test_nor_do_those_of_stress(i): ...
+
+
 @pytest.mark.quick(1)
 @numbers
 def test_one(i): ...
@@ -55,6 +60,7 @@ def test_unmarked(i): ...
 KEPT = {
     "test_ten": [0, 3, 6],
     "test_slow_ones_do_not_count": [0, 4, 7],  # of 0, 3, 4, 5, 6, 7, 8, 9
+    "test_nor_do_those_of_stress": [0, 2, 5],
     "test_one": [0],
     "test_more_than_there_are": [*range(10)],
     "TestOther::test_ten": [0, 3, 6],
@@ -83,12 +89,12 @@ def test_even_spread_of_the_cases_is_quick(tmp_path: Path, request: pytest.Fixtu
     items = list(request.session.genitems(pytest.Module.from_parent(request.session, path=path)))
     hooks = request.config.pluginmanager.get_plugin(str(ROOT / "tests" / "conftest.py"))
     hooks.pytest_collection_modifyitems(items)
-    kept = [item for item in items if not item.get_closest_marker("slow")]
+    kept = [item for item in items if not any(map(item.get_closest_marker, ("slow", "stress")))]
     assert sorted(item.nodeid.rpartition("test_cases.py::")[2] for item in kept) == quick_cases()
 
 
 @pytest.mark.slow
 def test_all_cases_are_in_the_full_run(tmp_path: Path) -> None:
     assert sorted(collected(tmp_path)) == quick_cases()
-    wanted = [f"{name}[{i}]" for name in KEPT for i in range(10)]
+    wanted = [f"{name}[{i}]" for name in KEPT for i in range(8 if name == "test_nor_do_those_of_stress" else 10)]
     assert sorted(collected(tmp_path, "-m", "not stress")) == sorted([*wanted, "test_without_cases"])

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from axes import agree, bits_stand_alone, sampled
+from axes import SOAK, agree, bits_stand_alone, sampled
 
 from gearlink.core.studies.explore.chunks import chunk_of, evaluated, together
 from gearlink.core.studies.explore.preparing import problem
@@ -150,7 +150,7 @@ def test_a_span_that_leaves_the_face_of_a_narrow_helical_gear_is_counted() -> No
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", STUDIES)
-@pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [64, pytest.param(1024, marks=pytest.mark.slow), SOAK])
 def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:
     base, variables, quantities = STUDIES[name]
     agree(sampled(base, "gear", variables, quantities, count))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from axes import agree, bits_stand_alone, by_path, sampled
+from axes import SOAK, agree, bits_stand_alone, by_path, sampled
 from factory import design
 
 from gearlink.core.machines.slider_crank.axis import axis
@@ -48,13 +48,13 @@ STUDIES: dict[str, tuple[dict[str, Any], dict[str, Any], list[str]]] = {
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", STUDIES)
-@pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [64, pytest.param(1024, marks=pytest.mark.slow), SOAK])
 def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:
     base, variables, quantities = STUDIES[name]
     agree(sampled(base, "analyze", variables, quantities, count))
 
 
-@pytest.mark.parametrize("count", [2048, pytest.param(131072, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [2048, pytest.param(131072, marks=pytest.mark.stress)])
 def test_sizes_of_many(count: int) -> None:
     agree(sampled(BASE, "analyze", {**LENGTHS, "stroke": {"from": 5, "to": 1200}}, SIZES, count))
 
