@@ -8,6 +8,7 @@ no other state, so there is no order in which things must be called.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import count
@@ -377,6 +378,10 @@ class Design:
         """Remedies of a check from closed forms; they are tried before the `ways`."""
         return ()
 
+    def asks_less(self, keys: Iterable[str]) -> bool:
+        """Whether one of the keys to be changed, or a section that it stands in, says what the machine has to do."""
+        return any(head in self.requirements for key in keys for head in _heads(key))
+
     def require(self, command: str) -> None:
         """Compute the decisive quantities of a command: where no mechanism exists, one of them says so.
 
@@ -480,6 +485,17 @@ class Design:
 def _several(names: Sequence[str]) -> Sequence[str]:
     """Names, of which a single one may stand alone."""
     return (names,) if isinstance(names, str) else names
+
+
+def _heads(key: str) -> Iterator[str]:
+    """A dotted path and the sections that it stands in.
+
+    Example
+        >>> list(_heads("motion[0].to"))
+        ['motion', 'motion[0]', 'motion[0].to']
+    """
+    yield from (key[: found.start()] for found in re.finditer(r"[.\[]", key))
+    yield key
 
 
 def _rows(samples: Any) -> int:

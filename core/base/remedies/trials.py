@@ -54,16 +54,17 @@ def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> 
     if all(found.status != "fail" for found in findings):
         return findings  # what warns may be built: no report waits for its trials
     bench = design.bench(command)
-    return tuple(_with(bench, found, index) for index, found in enumerate(findings))
+    return tuple(_with(design, bench, found, index) for index, found in enumerate(findings))
 
 
-def _with(bench: Bench, found: Check, index: int) -> Check:
+def _with(design: Design, bench: Bench, found: Check, index: int) -> Check:
     remedy = bench.remedy(found, index)
     if not remedy:
         return found
     left = bench.warnings_left(remedy, found, index)
     notes = (f"warnings that remain: {', '.join(left)}",) if left else ()
-    return replace(found, remedy=remedy, relaxes=bench.asks_less(key for key, _ in remedy), note=(*found.note, *notes))
+    relaxes = design.asks_less(key for key, _ in remedy)
+    return replace(found, remedy=remedy, relaxes=relaxes, note=(*found.note, *notes))
 
 
 class Bench:
@@ -137,7 +138,7 @@ class Bench:
         for remedy in remedies:
             if not self._is_paid(remedy, -BUDGET):
                 return
-            if not self.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
+            if not self._design.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
                 yield remedy
 
     def _begin(self) -> None:
@@ -201,9 +202,9 @@ class Bench:
             for remedy in self._closed(name):
                 if not self._is_paid(remedy, -BUDGET):
                     break
-                if self.asks_less(key for key, _ in remedy) is less and good(remedy):
+                if self._design.asks_less(key for key, _ in remedy) is less and good(remedy):
                     yield remedy
-            ways = (way for way in self._design.ways_of(name) if self.asks_less(way.keys) is less)
+            ways = (way for way in self._design.ways_of(name) if self._design.asks_less(way.keys) is less)
             for way, first in self._led(ways, good, name, index):
                 yield from islice(self._along(way, good, first), _OF_WAY)
 
@@ -238,10 +239,6 @@ class Bench:
         values = [number_at(self._design.given, key) for key in way.keys]
         old = [value for value in values if value is not None]
         return old if len(old) == len(values) else []
-
-    def asks_less(self, keys: Iterable[str]) -> bool:
-        """Whether keys to be changed say what the machine has to do."""
-        return not self._design.requirements.isdisjoint(keys)
 
     def _closed(self, name: str) -> Iterator[Remedy]:
         """The remedies from closed forms, computed one after the other; none more where the next is refused."""

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Found, NamesOfFile, Outline, UnknownName, in_unit
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.nomenclature import term
-from gearlink.core.base.report import Check, Quantity, Shown, Status, Table
+from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Table
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 
 if TYPE_CHECKING:
+    from gearlink.core.base.remedies.ways import Way
     from gearlink.core.machines.machine.relations import Moment, Relation
     from gearlink.core.machines.machine.series import Members, OverMachine
     from gearlink.core.machines.machine.shaft import Chain
@@ -188,6 +189,7 @@ class Machine(OfMembers):
     }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes", "servo")
+    requirements = Design.requirements | {"require"}
 
     def varied(self, spec: Any) -> Machine:
         """The machine of another file, with the members that are as they were."""
@@ -230,44 +232,59 @@ class Machine(OfMembers):
         """Turns of the main shaft after which everything repeats."""
         return self.members.turns
 
-    @cached_property
-    def _ties(self) -> list[Tie]:
-        """The relations between events as ways between members."""
+    def _ties(self, free: Collection[str]) -> list[Tie]:
+        """The relations between events as ways between members, some of them with phases that are sought."""
         from gearlink.core.machines.machine.relations import Value
 
         found = []
         for i, relation in enumerate(self.spec.relations):
             if not isinstance(relation, Value):
                 with at_key(f"require[{i}]"):
-                    found.append(self._tie(relation))
+                    found.append(self._tie(relation, free))
         return found
 
-    def _tie(self, relation: Any) -> Tie:
+    def _tie(self, relation: Any, free: Collection[str]) -> Tie:
         from gearlink.core.machines.machine.relations import Within
         from gearlink.core.machines.machine.timing import Tie
 
         if isinstance(relation, Within):
             inner, outer = (
-                self._free_offset(relation.one._replace(end="start")),
-                self._free_offset(relation.two._replace(end="start")),
+                self._free_offset(relation.one._replace(end="start"), free),
+                self._free_offset(relation.two._replace(end="start"), free),
             )
             most = self.timing.room(relation) - relation.by
             return Tie(outer[0], inner[0], inner[1] - outer[1], relation.by, most, relation.text)
-        one, two = self._free_offset(relation.one), self._free_offset(relation.two)
+        one, two = self._free_offset(relation.one, free), self._free_offset(relation.two, free)
         return Tie(one[0], two[0], two[1] - one[1], relation.by, math.inf, relation.text)
 
-    def _free_offset(self, moment: Moment) -> tuple[str, float]:
+    def _free_offset(self, moment: Moment, free: Collection[str]) -> tuple[str, float]:
         """A moment by the free member that it moves with, "" for none, and its angle from that phase, or from 0."""
         root, offset = self.timing.offset(moment)
-        phase = self.timing.phase_of_root(root) if root else 0.0
-        return (root, offset) if phase is None else ("", offset + phase)
+        if root in free:
+            return root, offset
+        return "", offset + ((self.timing.phase_of_root(root) or 0.0) if root else 0.0)
 
     @cached_property
     def solution(self) -> Solution:
         """The free phases, and the minimum margin of the relations between events."""
+        return self.solved()
+
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """Members on the main shaft whose phase is given."""
+        return tuple(name for name, each in self.spec.members.items() if each.input is None and each.phase != "free")
+
+    @cached_property
+    def unbound(self) -> Solution:
+        """The maximum margin with every phase free."""
+        return self.solved(self.driven)
+
+    def solved(self, also: Sequence[str] = ()) -> Solution:
+        """The free phases as if those of other members were free as well."""
         from gearlink.core.machines.machine.timing import solve
 
-        return solve(self.spec.free, self._ties, self.timing.dial)
+        free = (*self.spec.free, *also)
+        return solve(free, self._ties(free), self.timing.dial)
 
     @cached_property
     def phases(self) -> Mapping[str, float]:
@@ -304,6 +321,27 @@ class Machine(OfMembers):
     def limiting_relations(self) -> list[str] | None:
         """The relations that leave free phases no greater margin; None without free phases or relations."""
         return list(self.solution.limiting) or None if self.spec.free else None
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """Phases with which the relations hold, and relations that ask for less."""
+        from gearlink.core.machines.machine.remedies import candidates
+
+        return candidates(self) if check == "timing-relation" else ()
+
+    def ways_of(self, check: str) -> Iterable[Way]:
+        """The motions of members whose relations do not hold."""
+        from gearlink.core.machines.machine.remedies import ways
+
+        return ways(self) if check == "timing-relation" else ()
+
+    def asks_less(self, keys: Iterable[str]) -> bool:
+        """Whether keys say what the machine has to do: its relations, and what is required of members."""
+        keys = tuple(keys)
+        of_members = (
+            self.members[name].design.asks_less(key.removeprefix(f"members.{name}.design.") for key in keys)
+            for name in self.spec.members
+        )
+        return super().asks_less(keys) or any(of_members)
 
     # A drive instead of a member
 
@@ -487,7 +525,9 @@ class Machine(OfMembers):
 
     def _limiting(self, relation: Any, status: Status) -> tuple[str, ...]:
         """Relations that limit each other, where one does not hold that is among them."""
-        limiting = self.solution.limiting if self.spec.free else ()
+        if status != "fail" and not self.spec.free:
+            return ()
+        limiting = self.unbound.limiting if status == "fail" and self.unbound.margin < 0.0 else self.solution.limiting
         return tuple(limiting) if status != "pass" and relation.text in limiting else ()
 
     def check_member_speed(self) -> Iterator[Check]:

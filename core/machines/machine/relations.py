@@ -69,6 +69,10 @@ class Before:
     two: Moment
     by: float
 
+    def with_by(self, by: float) -> str:
+        """The line with another angle [deg]."""
+        return _with_by(self.text, by)
+
     def require_names(self, members: Sequence[str], events: Sequence[str]) -> None:
         """Refuse names that the machine does not have."""
         for moment in (self.one, self.two):
@@ -83,6 +87,10 @@ class Within:
     one: Named
     two: Named
     by: float
+
+    def with_by(self, by: float) -> str:
+        """The line with another angle [deg]."""
+        return _with_by(self.text, by)
 
     def require_names(self, members: Sequence[str], events: Sequence[str]) -> None:
         """Refuse names that the machine does not have."""
@@ -108,6 +116,11 @@ class Value:
 
 
 Relation: TypeAlias = "Before | Within | Value"
+
+
+def _with_by(text: str, by: float) -> str:
+    head = text.partition(" by ")[0]
+    return f"{head} by {by:.12g}" if by else head
 
 
 def common_member(relation: Relation) -> str:

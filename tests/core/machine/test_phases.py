@@ -17,6 +17,7 @@ import pytest
 import yaml
 from machines import FEED, GRIPPER, cam, machine, of, wrapped
 
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.machine.timing import Tie, solve
 
 
@@ -109,6 +110,37 @@ def test_a_relation_within_one_member_asks_for_another_motion_of_it() -> None:
     assert (own.status, own.fix) == ("fail", "change the motion of feed")
     assert own.note == ("both events are of one member: no phase changes the margin",)
     assert other.status == "pass"
+
+
+FIRST = ["feed.return_end before gripper.rise_start by 5", "gripper.rise_end before feed.rise_start by 5"]
+
+
+@pytest.mark.parametrize(
+    ("require", "fix"),
+    [
+        (FIRST, "set members.feed.phase to 60"),
+        (["gripper.velocity at 25 <= 3"], "set members.gripper.phase to 21"),
+        (
+            ["gripper.rise within feed.dwell by 20"],
+            "set require[0] to gripper.rise within feed.dwell by 15 and members.feed.phase to 255",
+        ),
+        (
+            ["feed.rise_end before feed.return_start by 200"],
+            "set require[0] to feed.rise_end before feed.return_start by 80",
+        ),
+    ],
+)
+def test_the_fix_of_a_relation_is_a_phase_or_a_relation_that_asks_for_less(require: list[str], fix: str) -> None:
+    """The phases are those of the maximum margin: 20 deg are left of the dial, 80 - 50 deg of a dwell."""
+    found = machine({"feed": of(cam(FEED)), "gripper": of(cam(GRIPPER))}, require=require)
+    failing = [each for each in found.findings("analyze", "timing-relation") if each.status == "fail"]
+    assert {(each.fix or "").removesuffix(" (relaxes the requirement)") for each in failing} == {fix}
+    repaired = machine_of(found, failing[0].remedy)
+    assert all(each.status == "pass" for each in repaired.check("timing-relation"))
+
+
+def machine_of(old: Any, remedy: Any) -> Any:
+    return type(old)(changed(old.spec, remedy))
 
 
 def test_where_no_phases_will_do_the_relations_that_limit_each_other_are_named() -> None:
