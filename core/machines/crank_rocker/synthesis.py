@@ -7,19 +7,21 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key, section_of
-from gearlink.core.base.remedies.ways import down, either
-from gearlink.core.base.report import Check, safely_above
+from gearlink.core.base.remedies.ways import either
+from gearlink.core.base.report import Check, Remedy, safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.crank_rocker.design import LENGTHS, MOTION, CrankRocker, DeadCenters, inner_places
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.checks import recommended_angle
 from gearlink.core.parts.linkages.codes import FULL_TURN
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
@@ -31,6 +33,7 @@ _FIT = 1e-7
 """Of swing and time ratio, relative: what the dead centres of a linkage give back; rounding leaves far less."""
 _IN_LINE = 1e-9
 _SINGULAR = 1e-13
+_EASED = 200  # steps of tasks that ask for less
 
 
 # Swing and time ratio
@@ -89,7 +92,13 @@ def best_ratios(p: float, q: float) -> Ratios:
         return ((t2 * x + 2.0) * x - 1.0) * x - (1.0 + 1.0 / t2) * turned
 
     if not cubic(1.0) > 0.0:
-        raise _nowhere(p, q)
+        alpha = 2.0 * abs(math.degrees(p))
+        bound = f"< {safely_below(180.0 - 2.0 * alpha)}" if p < 0.0 else f"> {safely_above(2.0 * alpha - 180.0)}"
+        raise NoSolution(
+            f"swing: {short(2.0 * math.degrees(q))} deg (limit {bound} deg with strokes of {short(180.0 + alpha)} and "
+            f"{short(180.0 - alpha)} deg of the crank)",
+            fix=_easier(p),
+        )
     if turned == 0.0:  # of q = p the root x = 0 is none of a linkage
         return ratios_of(math.sqrt(1.0 + math.sqrt(1.0 + t2)), p, q)
     return ratios_of(1.0 / math.sqrt(bracketed_root(cubic, 0.0, 1.0)), p, q)
@@ -129,8 +138,12 @@ def _nowhere(p: float, q: float) -> NoSolution:
     return NoSolution(
         f"no crank-rocker swings by {short(math.degrees(2.0 * q))} deg with strokes of {short(180.0 + alpha)} and "
         f"{short(180.0 - alpha)} deg of the crank",
-        fix="take a quick_return_ratio nearer to 1, another swing, or the other slow_stroke",
+        fix=_easier(p),
     )
+
+
+def _easier(p: float) -> str:
+    return "take slow_stroke: same" if p < 0.0 else "take a quick_return_ratio nearer to 1"
 
 
 def require_task(linkage: FourBar, swing: float, ratio: float, same: bool) -> None:
@@ -435,15 +448,23 @@ class SwingSynthesis(_Synthesis):
         ),
     )
     outlines = {"synth swing": CrankRocker.outlines["analyze"], "analyze": CrankRocker.outlines["analyze"]}
-    ways = {
-        "transmission-angle": (*either("swing.crank"), down("swing.quick_return_ratio"), down("swing.angle")),
-    }
-    remedy = "specify a smaller swing, a quick_return_ratio nearer to 1, or the other slow_stroke"
+    ways = {"transmission-angle": either("swing.crank")}
+    requirements = CrankRocker.requirements | {"swing.slow_stroke"}
+    remedy = "specify a smaller swing with a quick_return_ratio nearer to 1"
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """The other sense, a smaller time ratio, a smaller swing, or both; see `_eased`."""
+        return _eased(self) if check == "transmission-angle" else ()
+
+    @property
+    def task(self) -> Any:
+        """The section `swing`."""
+        return section_of(self.spec, "swing", "angle (deg), quick_return_ratio, and a length (mm)")
 
     @cached_property
     def linkage(self) -> FourBar:
         """The four-bar with the dead centres that are asked for."""
-        task = section_of(self.spec, "swing", "angle (deg), quick_return_ratio, and a length (mm)")
+        task = self.task
         swing, same = math.radians(task.angle), task.slow_stroke == "same"
         ratio: float = task.quick_return_ratio
         p, q = half_angles(swing, ratio, same)
@@ -467,6 +488,49 @@ class SwingSynthesis(_Synthesis):
             linkage = FourBar(**lengths, assembly=self.spec.assembly)
             require_task(linkage, swing, ratio, same)
         return linkage
+
+
+def _eased(design: SwingSynthesis) -> Iterator[Remedy]:
+    """Tasks with better transmission angles: slow_stroke: same, where crank and rocker may have that sense; then less.
+
+    Each is the most that can be asked for, first with what is recommended, then within the limit.
+    """
+    task, limit = design.task, design.spec.limits.transmission_angle
+    turned: Remedy = (("swing.slow_stroke", "same"),) if task.slow_stroke == "opposite" else ()
+    if turned:
+        yield turned
+    for least in (recommended_angle(limit), limit):
+        for sense in ((), turned) if turned else ((),):
+            for of_ratio, of_swing in ((1.0, 0.0), (0.0, 1.0), (1.0, 1.0)):
+                yield from _most(design, sense, (of_ratio, of_swing), math.radians(least))
+
+
+def _most(design: SwingSynthesis, sense: Remedy, shares: tuple[float, float], least: float) -> Iterator[Remedy]:
+    """The largest time ratio, swing, or both in proportion, with a minimum transmission angle; none where none does."""
+    task = design.task
+
+    def at(i: int) -> Remedy:
+        ratio = math.floor(100.0 * (task.quick_return_ratio - 1.0) * (1.0 - shares[0] * i / _EASED)) / 100.0 + 1.0
+        angle = math.floor(2.0 * task.angle * (1.0 - shares[1] * i / _EASED)) / 2.0
+        values = (("quick_return_ratio", round(ratio, 2)), ("angle", angle))
+        return (*sense, *((f"swing.{key}", value) for (key, value), share in zip(values, shares, strict=True) if share))
+
+    def holds(i: int) -> bool:
+        spec = changed(design.given, at(i))
+        if spec is None or spec.swing.quick_return_ratio == 1.0:
+            return False
+        try:
+            return SwingSynthesis(spec).min_transmission_angle >= least
+        except NoSolution:
+            return False
+
+    bad, good = 0, next((i for i in range(_EASED - 1, 0, -1) if holds(i)), 0)
+    if not good:
+        return
+    while good - bad > 1:
+        middle = (bad + good) // 2
+        bad, good = (bad, middle) if holds(middle) else (middle, good)
+    yield at(good)
 
 
 class FunctionSynthesis(_Synthesis):

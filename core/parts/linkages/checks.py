@@ -37,6 +37,11 @@ def transmission_check(
     return TRANSMISSION_ANGLE.below(value, limit, limit + _LITTLE, "deg", subject, remedy, at=at, note=note)
 
 
+def recommended_angle(limit: float) -> float:
+    """The minimum transmission angle above which GL303 no longer warns [deg]."""
+    return limit + _LITTLE
+
+
 def transmission_judged(value: Any, limit: Any) -> Judged:
     """GL303 of minimum transmission angles [deg]."""
     return below(TRANSMISSION_ANGLE, value, limit, limit + _LITTLE, "deg")

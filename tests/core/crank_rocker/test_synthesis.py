@@ -136,6 +136,41 @@ def test_refused_swings(keys: dict[str, Any], key: str) -> None:
     assert refused.value.key == key
 
 
+@pytest.mark.parametrize(
+    ("keys", "changed"),
+    [
+        ({"quick_return_ratio": 1.1, "angle": 60.0, "slow_stroke": "opposite"}, ["slow_stroke"]),
+        ({"quick_return_ratio": 1.3, "angle": 60.0, "slow_stroke": "opposite"}, ["quick_return_ratio"]),
+        ({"quick_return_ratio": 1.1, "angle": 100.0}, ["angle"]),
+        ({"quick_return_ratio": 1.6, "angle": 100.0}, ["quick_return_ratio", "angle"]),
+        (
+            {"quick_return_ratio": 1.3, "angle": 100.0, "slow_stroke": "opposite", "crank": 40.0},
+            ["slow_stroke", "quick_return_ratio"],
+        ),
+    ],
+)
+def test_the_fix_asks_for_the_most_that_is_possible(keys: dict[str, Any], changed: list[str]) -> None:
+    made = swing(frame=120.0, **keys)
+    (found,) = made.findings("synth swing", "transmission-angle")
+    names = [key.removeprefix("swing.") for key, _ in found.remedy]
+    assert names[: len(changed)] == changed
+    values = dict(zip(names, (value for _, value in found.remedy), strict=True))
+    repaired = swing(frame=120.0, **{**keys, **values})
+    assert math.degrees(repaired.min_transmission_angle) >= 45.0
+    assert values.get("quick_return_ratio", 2.0) > 1.0
+    for key, step in {"quick_return_ratio": 0.015, "angle": 1.0}.items():
+        if len(names) == 1 and key in values:  # a little more is too much
+            more = swing(frame=120.0, **{**keys, key: values[key] + step})
+            assert math.degrees(more.min_transmission_angle) < 45.0
+
+
+def test_a_swing_that_is_too_wide_has_a_limit() -> None:
+    with pytest.raises(NoSolution) as refused:
+        _ = swing(angle=140.0, quick_return_ratio=1.3, slow_stroke="opposite", frame=120.0).linkage
+    assert refused.value.message.startswith("swing: 140 deg (limit < 133 deg with strokes of 203.5 and 156.5 deg")
+    assert refused.value.fix == "take slow_stroke: same"
+
+
 def test_what_is_refused_does_not_exist() -> None:
     """Swings and ratios drawn at random: where the closed form finds none, no coupler over crank gives one either."""
     rng, refused = random.Random(5), 0
