@@ -270,7 +270,6 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:five_bar",
             parts=("input_gear", "output_gear", "idler_gear", "planet_gear", "sun_gear", "ring_gear", "PATH-M"),
             rexs=(),
-            sheets={"motion": "cli.views.figures.sheets.motion_sheet:five_bar"},
         ),
         Kind(
             "geared-six-bar",

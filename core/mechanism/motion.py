@@ -53,6 +53,8 @@ class Motion:
         make : function of an array of inputs (N,) [rad or mm], of the order of the highest derivative, and of the side
         outputs : what moves in the end, as sheets and animations show it; of the first one `register` counts the errors
         highest : int - the highest derivative there is; 2 where a law has no third
+        transmission : pins at which a coupler moves a link of the frame, and whose transmission angles are judged where
+            no table has them
 
     A rate that jumps at an input is the one just after it, with `side` -1 the one just before.
     """
@@ -61,6 +63,7 @@ class Motion:
     input: Input = Input()
     outputs: tuple[Output, ...] = ()
     highest: int = 3
+    transmission: tuple[str, ...] = ()
     kept: dict[tuple[int, bytes], Mechanism] = field(default_factory=dict, repr=False, compare=False)
     kept_few: dict[tuple[int, bytes], Mechanism] = field(default_factory=dict, repr=False, compare=False)
 

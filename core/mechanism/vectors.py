@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -183,6 +183,24 @@ def pressure_angles(mechanism: Mechanism) -> dict[str, tuple[Points, Reals]]:
                 sine = np.abs((np.conj(normal) * way).imag) / np.abs(way)
                 made[name] = at, np.arctan2(sine, cosine)
     return made
+
+
+def transmission_angles(mechanism: Mechanism, pins: Sequence[str]) -> dict[str, Reals]:
+    """Transmission angle [rad] at each of the pins by which a coupler moves a link of the frame, folded to 0 to pi/2.
+
+    Notes
+        Between the line of the coupler's pins and the normal of the direction in which the pin can move.
+    """
+    joints = {each.name: each for each in mechanism.connections if isinstance(each, Pin)}
+    found: dict[str, Reals] = {}
+    for each in (joints[name] for name in pins if name in joints):
+        ways = {link: _direction(mechanism, link, each.at) for link in (each.first, each.second)}
+        (coupler,) = (link for link, way in ways.items() if way is None)
+        way = next(way for way in ways.values() if way is not None)
+        other = next(pin for pin in joints.values() if pin is not each and coupler in (pin.first, pin.second))
+        turned = np.conj(each.at - other.at) * way
+        found[each.name] = np.arctan2(np.abs(turned.real), np.abs(turned.imag))
+    return found
 
 
 def _direction(mechanism: Mechanism, follower: str, at: Points) -> Points | None:

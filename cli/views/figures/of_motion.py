@@ -27,6 +27,8 @@ _HIGH = 1.8
 """Height of a mechanism over its width from which it stands beside the curves."""
 _ABOVE = "Mechanism after an eighth of the cycle, pale half a cycle later"
 _COLORS = (style.BLUE, style.GREEN, style.PURPLE)
+_PLACES = 360
+"""Of the loop, at which is looked for what fails."""
 
 
 def draw(command: str, design: Any) -> Figure:
@@ -55,20 +57,21 @@ def draw(command: str, design: Any) -> Figure:
 def instants(made: Figure, design: Any, checks: Sequence[Check]) -> None:
     """Curves over the input again in red where a check fails, on sheets that name their panels as `over_input`."""
     columns: list[list[Axes]] = vars(made).get("over_input", [])
-    given = design.moving.input if columns else None
-    if given is None or given.turns is None:
+    if not columns:
         return
-    low, high = math.degrees(given.start), math.degrees(given.end)
-    shares = np.arange(360) / 360.0
+    given, shares = design.moving.input, np.arange(_PLACES + 1) / _PLACES
     faults = [fault for fault in shown.build(design, shares, (), checks).faults if fault.placed]
-    frame = shown.frame_of(design, builder(design.kind)) if faults else None
-    place = (np.degrees(frame.inputs(shares)) - low if frame else (high - low) * shares) % (high - low)
-    order = np.argsort(place)
+    if not faults:
+        return
+    frame = shown.frame_of(design, builder(design.kind))
+    q = inputs(given, shares) if frame is None else frame.inputs(shares)
+    place, period = (np.degrees(q), math.degrees(given.end - given.start)) if given.unit == "rad" else (q, None)
+    order, period = np.argsort(place), period if given.turns else None
     for rows in columns:
         for fault, axes in ((fault, axes) for fault in faults for axes in rows):
             curve = max(axes.lines, key=lambda line: len(np.asarray(line.get_xdata())))
             x, y = (np.asarray(data, dtype=float) for data in curve.get_data())
-            bad = np.interp(x - low, place[order], fault.at[order], period=high - low) > 0.5
+            bad = np.interp(x, place[order], fault.at[order], period=period) > 0.5
             failing.past(axes, x, y, bad, " ".join(fault.words.split()[:2]))  # code and name
         if rows[0].get_legend_handles_labels()[1] and not rows[0].child_axes:  # above it are names of phases
             panels.legend_above(rows[0], 3)

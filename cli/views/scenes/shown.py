@@ -782,12 +782,11 @@ class _Failing:
 
     def _transmission(self) -> Told:
         """The links in red where the transmission angle of the table over the input is below its limit."""
-        q, table = self._inputs, self._over_input()
-        if q is None or table is None:
+        q = self._inputs
+        angle = None if q is None else self._least_transmission(q)
+        if angle is None:
             return
-        x, y = np.asarray(table.data[0], dtype=float), np.asarray(table["transmission_angle"], dtype=float)
-        period = math.degrees(self.design.moving.input.end) if self.design.moving.input.turns else None
-        mask = np.interp(np.degrees(q), x, y, period=period) < self.design.spec.limits.transmission_angle
+        mask = angle < self.design.spec.limits.transmission_angle
         yield (
             mask,
             [
@@ -796,6 +795,21 @@ class _Failing:
                 if isinstance(part, Chain) and part.marked
             ],
         )
+
+    def _least_transmission(self, q: Reals) -> Reals | None:
+        """The least transmission angle at inputs [deg]: of the motion's own pins, else of a table over the input."""
+        motion = self.design.moving
+        inside = within(motion.input, q)
+        there = motion.at(np.where(inside, q, motion.input.start), 1) if motion.transmission else None
+        if there is not None:
+            found = [*vectors.transmission_angles(there, motion.transmission).values()]
+            return np.where(inside, np.degrees(np.min(found, axis=0)), np.inf) if found else None
+        table = self._over_input()
+        if table is None:
+            return None
+        x, y = np.asarray(table.data[0], dtype=float), np.asarray(table["transmission_angle"], dtype=float)
+        period = math.degrees(motion.input.end) if motion.input.turns else None
+        return np.asarray(np.interp(np.degrees(q), x, y, period=period))
 
     def _over_input(self) -> Table | None:
         """A table of the design that has the transmission angle over the input of the motion."""

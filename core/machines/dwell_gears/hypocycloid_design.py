@@ -1021,7 +1021,8 @@ def motion(design: HypocycloidDwell) -> Motion:
         ]
         return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})
 
-    return Motion(make, Input("carrier_angle"), (Output("Slider F, outwards", outwards(design)),))
+    outputs = (Output("Slider F, outwards", outwards(design)),)
+    return Motion(make, Input("carrier_angle"), outputs, transmission=("F",))
 
 
 def _arm_motion(design: HypocycloidDwell) -> Motion:

@@ -109,7 +109,8 @@ def function_motion(design: GearedFiveBar, bar: FunctionFiveBar, start: float, e
         links, joints = _function(design, bar, phi, order)
         return Mechanism(links, joints, "input")
 
-    return Motion(make, Input(start=start, end=end, turns=None), (Output("Output link ED", turned("output")),))
+    outputs = (Output("Output link ED", turned("output")),)
+    return Motion(make, Input(start=start, end=end, turns=None), outputs, transmission=("D",))
 
 
 def _rolling(design: GearedFiveBar, name: str = "") -> tuple[float, float, float]:

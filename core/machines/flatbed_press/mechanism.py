@@ -48,7 +48,7 @@ def motion(design: FlatbedPress) -> Motion:
     press = _Press(design)
     zone = (("sync", design.sync_start, design.sync_end),)
     outputs = Output("Bed", bed(design), press.phases or zone), Output("Cylinder surface", cylinder(design), zone)
-    return Motion(press.at, Input(joints=press.joints), outputs)
+    return Motion(press.at, Input(joints=press.joints), outputs, transmission=("C", "M", "F"))
 
 
 def bare(design: FlatbedPress) -> FlatbedPress:

@@ -74,7 +74,8 @@ def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:
 
     starts = np.radians(design.law.starts)
     phases = tuple((name, float(a), float(b)) for name, a, b in zip(PHASES, starts, starts[1:], strict=False))
-    return Motion(make, Input("theta", joints=_joints(design)), (Output("Gripper arm", swing(design), phases),))
+    outputs = (Output("Gripper arm", swing(design), phases),)
+    return Motion(make, Input("theta", joints=_joints(design)), outputs, transmission=("D", "C"))
 
 
 def swing(design: SwingGripper) -> Course:

@@ -40,6 +40,10 @@ GEARS = "shaft_gears"
 """The pair between parallel cam shafts."""
 
 
+_TRANSMISSION = ("C", "F")
+"""Where the coupler moves the cam, and the rod the slider."""
+
+
 def motion(design: WideSwingDesign) -> Motion:
     """Links and joints over the input angle: over a revolution where the file tells all of it, else over the stroke.
 
@@ -51,9 +55,8 @@ def motion(design: WideSwingDesign) -> Motion:
     whole = spec.cycle is not None or spec.drive is not None
     machine = _WithCams(design, whole)
     end, turns = (TURN, 1) if whole else (design.motion.cycle_angle, None)
-    return Motion(
-        machine.at, Input(end=end, turns=turns, joints=machine.joints), _outputs(design), design.motion.highest
-    )
+    given = Input(end=end, turns=turns, joints=machine.joints)
+    return Motion(machine.at, given, _outputs(design), design.motion.highest, _TRANSMISSION)
 
 
 def working_stroke(design: WideSwingDesign) -> Motion:
@@ -64,7 +67,7 @@ def working_stroke(design: WideSwingDesign) -> Motion:
 
     whole = design.spec.cycle is not None and design.spec.cam is None
     given = Input(end=TURN if whole else design.motion.cycle_angle, turns=1 if whole else None)
-    return Motion(make, given, _outputs(design), design.motion.highest)
+    return Motion(make, given, _outputs(design), design.motion.highest, _TRANSMISSION)
 
 
 def _outputs(design: WideSwingDesign) -> tuple[Output, ...]:

@@ -18,6 +18,7 @@ from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.sheets import motion_sheet
 from gearlink.cli.views.figures.write import draw
 from gearlink.cli.views.scenes.scene import Body, Chain
+from gearlink.core.mechanism import vectors
 
 MOTION = [
     {"to": 120, "lift": 15, "law": "modified-sine"},
@@ -196,3 +197,31 @@ def test_instants_that_fail_are_red_on_sheets_of_motion(gearlink: Any, designs: 
     )
     assert gearlink(*line, "--out", tmp_path).status == 0
     assert 'id="fails' in (tmp_path / "swing-gripper-motion.svg").read_text()
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(
+    ("name", "limit", "least"),
+    [
+        ("hypocycloid_slider", 75.0, "F"),
+        ("five_bar_positions", 60.0, "D"),
+        ("wide_swing_slider", 80.0, "F"),
+        ("ty460", 40.0, "M"),
+        ("swing_gripper", 72.0, "D"),
+    ],
+)
+def test_stretches_of_a_small_transmission_angle_are_red_on_every_sheet_of_motion(
+    name: str, limit: float, least: str
+) -> None:
+    """Of these kinds, whose tables do not have the angle, no instant was red."""
+    made = design(name, limits__transmission_angle=limit)
+    figure = motion_sheet.draw(made)
+    of_motion.instants(figure, made, made.check("transmission-angle"))
+    red = tagged(figure, "fails")
+    assert len(red) == sum(len(column) for column in vars(figure)["over_input"])
+    x = np.asarray(red[0].get_xdata())
+    angle = vectors.transmission_angles(made.moving.at(np.radians(x), 1), made.moving.transmission)[least]
+    low, shown = np.degrees(angle) < limit, np.isfinite(np.asarray(red[0].get_ydata(), dtype=float))
+    assert low.any()
+    assert not low.all()
+    assert (shown != low).sum() <= 12  # a step at either end of each stretch, and their neighbours

@@ -181,9 +181,7 @@ def draw(design: Any) -> Figure:
         if course.bands:
             panels.shade(axes, course.bands)
         columns.append(axes)
-    place = KINDS[design.kind].all_sheets["motion"]
-    if place.endswith((":of_motion", ":press", ":gripper")):  # the others are over a stroke, or a function
-        vars(made)["over_input"] = columns
+    vars(made)["over_input"] = columns
     return made
 
 
@@ -266,11 +264,6 @@ def gripper(design: Any) -> list[Course]:
 
     found = _courses(rocker_too(design), design.shaft_speed, 4.0)
     return [replace(each, over="cylinder angle [deg]") for each in found]
-
-
-def five_bar(design: Any) -> list[Course]:
-    """Both coordinates of a path that one revolution closes."""
-    return of_motion(design) if design.is_path and design.period_turns == 1 else []
 
 
 def wide_swing(design: Any) -> list[Course]:
