@@ -19,7 +19,7 @@ from itertools import chain, combinations, product
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from gearlink.core.base.judged import Judged
-from gearlink.core.base.remedies.ways import down
+from gearlink.core.base.remedies.ways import THINNEST, down, thinner
 from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
@@ -303,7 +303,7 @@ def _beside(seen: complex, length: float) -> float:
     return abs(seen - min(max(seen.real, 0.0), length))
 
 
-SHAFT_WAYS = (*(down(f"shafts.{name}_radius") for name in ("input", "output", *"ADEOW")), down("gears.rim"))
+SHAFT_WAYS = (*thinner(*(f"shafts.{name}_radius" for name in ("input", "output", *"ADEOW"))), down("gears.rim"))
 """How a file may be changed where a shaft is not clear."""
 
 
@@ -402,7 +402,7 @@ def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...]) -> Ch
         fix = f"end the {bare[0].name} before the plane of the gears (overhung)"
         # In whole tenths that can be built; the last bit of a gap is rounding.
         radius = math.floor(10.0 * pair.gap - 1e-9) / 10.0
-        if radius > 0.0 and len(bare) == 1:
+        if len(bare) == 1 and radius >= THINNEST * judged.limit:
             fix = f"set {bare[0].key} to at most {radius:g} mm"
         if pair.gap >= 0.0:
             aside = f"{'two minimum shaft radii' if len(bare) > 1 else 'minimum shaft radius'}, limits.least_shaft"

@@ -17,6 +17,8 @@ _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS, _FINE = 3.0, 30, 200
 MODULES = (0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0)
 """Series I of ISO 54 [mm]."""
+THINNEST = 0.75
+"""Of a shaft's radius: nothing thinner is advised, since it bears less than half of the torque."""
 REFUSAL = "refusal"
 """Name under which a design gives candidates where it is refused."""
 
@@ -96,6 +98,11 @@ def wider(*keys: str) -> Way:
 def down(*keys: str, step: float = 0.1) -> Way:
     """The way to smaller values."""
     return Way(keys, -step)
+
+
+def thinner(*keys: str) -> tuple[Way, ...]:
+    """For each key the way to thinner shafts, down to `THINNEST` of them: they have a torque to carry."""
+    return tuple(Way((key,), -0.1, growth=1.0 - THINNEST) for key in keys)
 
 
 def either(*keys: str, step: float = 0.1) -> tuple[Way, ...]:

@@ -12,7 +12,7 @@ from gearlink.core.base.design import Design, Found, Outline, in_unit, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.many_designs import column, hand_out, sought, together
 from gearlink.core.base.nomenclature import term
-from gearlink.core.base.remedies.ways import Way, down, either, up
+from gearlink.core.base.remedies.ways import Way, down, either, thinner, up
 from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
@@ -125,7 +125,7 @@ class DiscCamDesign(OfFollower, Design):
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {
         "pressure-angle": (*_ENLARGED, *either("follower.offset", "follower.center_distance")),
         "cam-undercut": (*_ENLARGED, down("follower.roller_radius")),
-        "shaft-clearance": (*_ENLARGED, down("cam.shaft_radius")),
+        "shaft-clearance": (*_ENLARGED, *thinner("cam.shaft_radius")),
         "lift-off": (up("spring.preload", step=1.0), up("spring.least_force", step=1.0), up("spring.rate")),
         "outer-wall": (*_ENLARGED, down("follower.roller_radius")),
         "cutter-radius": (down("cam.cutter_radius"),),

@@ -14,7 +14,7 @@ import numpy as np
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
 from gearlink.core.base.real_speed import RealSpeed, per_time
-from gearlink.core.base.remedies.ways import either
+from gearlink.core.base.remedies.ways import either, thinner
 from gearlink.core.base.report import Check, Status, Table, safely_below, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
@@ -433,7 +433,7 @@ class GenevaDrive(RealSpeed, Design):
     ways = {
         "locking": either("locking_radius", "pin_radius", "center_distance"),
         "pin-entry": either("locking_clearance", "slot_clearance"),
-        "shaft-clearance": either("shaft_radius", "hub_radius", "center_distance"),
+        "shaft-clearance": (*thinner("shaft_radius", "hub_radius"), *either("center_distance")),
     }
 
     def outline(self, command: str) -> Outline:

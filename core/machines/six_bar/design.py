@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
-from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
+from gearlink.core.base.remedies.ways import Way, either, modules, shared, thinner, up
 from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
@@ -457,7 +457,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     ways = {
         "transmission-angle": (*_FREE_LINKS, *_CARRIERS, *_STARTS),
         "gear-collision": (up("links.frame"), *_FREE_LINKS, *_CARRIERS),
-        "shaft-clearance": (*SHAFT_WAYS, down("shafts.F_radius"), *_FREE_LINKS, *_CARRIERS),
+        "shaft-clearance": (*SHAFT_WAYS, *thinner("shafts.F_radius"), *_FREE_LINKS, *_CARRIERS),
         **_gear_ways(),
     }
 

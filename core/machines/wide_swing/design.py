@@ -15,6 +15,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
+from gearlink.core.base.remedies.ways import THINNEST
 from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
@@ -1470,7 +1471,8 @@ class WideSwingDesign(Design):
                 status = "fail"
             elif is_external(cam) and bottom < HUB * shaft * (1.0 - _ROUNDING):
                 status, recommended = "warn", (HUB - 1.0) * shaft
-                fix = f"take a shaft_radius of at most {safely_below(bottom / HUB)} mm"
+                if bottom >= HUB * THINNEST * shaft:
+                    fix = f"take a shaft_radius of at most {safely_below(bottom / HUB)} mm"
             yield SHAFT_CLEARANCE.check(
                 status,
                 f"roller of the {words} to the cam shaft",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.remedies.ways import REFUSAL, at_least, at_most, down, either, up
+from gearlink.core.base.remedies.ways import REFUSAL, at_least, at_most, down, either, thinner, up
 from gearlink.core.base.results import keep, kept
 from gearlink.core.base.spec_paths import changed, number_at
 
@@ -34,7 +34,7 @@ WAYS = {
     "profile-exists": (_CYCLE, down("drive.crank"), up("swing", step=_DEGREES)),
     "cam-undercut": _ROLLER,
     "transition-zone": _ROLLER,
-    "shaft-clearance": (up("cam.center_distance"), down("cam.roller_radius"), down("cam.shaft_radius")),
+    "shaft-clearance": (up("cam.center_distance"), down("cam.roller_radius"), *thinner("cam.shaft_radius")),
     "body-clearance": (up("unloader.arm"), *either("slider.middle_angle", step=1.0)),
     "force-reserve": (up("unloader.reserve", step=_RATIO),),
     "transmission-angle": (down("drive.crank"), *either("drive.coupler", "drive.frame")),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.ways import THINNEST
 from gearlink.core.base.report import (
     NO_NUMBER,
     Check,
@@ -131,7 +132,7 @@ def hub_checks(
         thin = without_noise(cam.min_radius - HUB * shaft, shaft) < 0.0
         status: Status = "fail" if room <= 0.0 else "warn" if thin else "pass"
         fix = farther(HUB * shaft - cam.min_radius) if status != "pass" else ""
-        if status == "warn":
+        if status == "warn" and cam.min_radius >= HUB * THINNEST * shaft:
             fix = f"take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm"
         yield rule.check(
             status,

@@ -201,6 +201,8 @@ def test_shaft_that_no_radius_clears_is_to_be_overhung() -> None:
 
 
 def test_radius_named_in_place_of_a_bare_axis_passes() -> None:
+    thin = design(EXAMPLE_3, limits__least_shaft=9.0).check("shaft-clearance")[0]
+    assert (thin.status, thin.fix) == ("warn", "end the input shaft before the plane of the gears (overhung)")
     check = design(EXAMPLE_3, limits__least_shaft=7.0).check("shaft-clearance")[0]
     assert check.status == "warn"
     radius = float(re.search(r"set shafts\.input_radius to at most ([\d.]+) mm", check.fix)[1])
