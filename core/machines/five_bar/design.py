@@ -270,7 +270,9 @@ def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[Functi
     phi, psi = (np.array(column) for column in zip(*positions, strict=True))
     x = _starts(start)
     ratio = start.coupler_ratio
-    x, (cost, *_), _, _ = descend(lambda x: _state(x, phi, psi, ratio), _step, x, _STEPS, damping=1.0, least=0.0)
+    x, (cost, *_), _, _ = descend(
+        lambda x: _state(x, phi, psi, ratio), _step, x, _STEPS, slopes=_square, damping=1.0, least=0.0
+    )
     close = (cost < _CLOSE) & np.all(np.abs(x[:, :4]) < _WIDEST, axis=1)
     seen: set[tuple[float, ...]] = set()
     for row in x[close]:
@@ -296,14 +298,19 @@ def _state(x: Reals, phi: Reals, psi: Reals, ratio: float) -> State:
     return np.sum((long - c) ** 2, axis=1), long - c, slopes
 
 
-def _step(x: Reals, state: State, damping: Reals) -> Reals:
-    """Levenberg's step of minimum length for every row: -J^T (J J^T + damping)^-1 value."""
-    cost, value, slopes = state
+def _square(_x: Reals, state: State) -> State:
+    """J J^T of every row, with a floor against rounding."""
+    slopes = state[2]
     square = slopes @ np.swapaxes(slopes, 1, 2)
     # The floor goes with the size, else rounding takes it where one link is a million times the others.
-    floor = 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
-    square += (damping * np.minimum(cost, 1.0) + floor)[:, None, None] * np.eye(value.shape[1])
-    step: Reals = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(square, value[:, :, None]), axis=2)
+    return square, 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
+
+
+def _step(x: Reals, state: State, damping: Reals) -> Reals:
+    """Levenberg's step of minimum length for every row: -J^T (J J^T + damping)^-1 value."""
+    cost, value, slopes, square, floor = state
+    held = square + (damping * np.minimum(cost, 1.0) + floor)[:, None, None] * np.eye(value.shape[1])
+    step: Reals = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(held, value[:, :, None]), axis=2)
     return x - np.clip(step, -0.5, 0.5)
 
 

@@ -22,7 +22,7 @@ from gearlink.core.machines.five_bar.function_fit import Round
 from gearlink.core.machines.five_bar.path import distances, points
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.numerics.lm import DAMPING, State, damped, descend
+from gearlink.core.numerics.lm import DAMPING, State, damped, damped_normal, descend, normal
 from gearlink.core.numerics.quasi_random import halton
 
 # So many starts, fewer where starts times targets times places would pass the work of a round.
@@ -172,7 +172,13 @@ def descended(problem: PathProblem, x: Reals, phi: Reals, steps: int) -> tuple[R
             limit, damping = _drawn_in(problem, x, limit), np.minimum(damping, DAMPING)
         few = min(_MATCHED_EVERY, steps - first)
         z, (cost, *_), damping, taken = descend(
-            partial(_state, problem, limit), partial(_step, problem), z, few, damping=damping, least=_LEAST_DAMPING
+            partial(_state, problem),
+            partial(_step, problem),
+            z,
+            few,
+            given=(limit,),
+            damping=damping,
+            least=_LEAST_DAMPING,
         )
         if taken < few:
             break
@@ -213,7 +219,7 @@ def _feet(problem: PathProblem, x: Reals, tried: Reals) -> tuple[Reals, Reals]:
     return phi.reshape(tried.shape), away.reshape(tried.shape)
 
 
-def _state(problem: PathProblem, limit: Reals, z: Reals) -> State:
+def _state(problem: PathProblem, z: Reals, limit: Reals) -> State:
     """Cost (K,), misses (K, N), path velocities (K, N), slopes (K, N, 7), penalties (K, 8) with slopes (K, 8, 7)."""
     x = z[:, :UNKNOWNS]
     found = problem.family.path_slopes(x, z[:, UNKNOWNS:])
@@ -521,14 +527,19 @@ def _descended(
 ) -> Reals:
     """Rows after Levenberg's and Marquardt's steps, the best first."""
 
-    def step(z: Reals, state: State, damping: Reals) -> Reals:
+    def slopes(_z: Reals, state: State) -> State:
         _, value, slopes = state
-        moved = damped(np.nan_to_num(slopes), np.nan_to_num(value), damping)
+        return normal(np.nan_to_num(slopes), np.nan_to_num(value))
+
+    def step(z: Reals, state: State, damping: Reals) -> Reals:
+        moved = damped_normal(state[3], state[4], damping)
         new = z + np.clip(moved, -0.4, 0.4)
         new[:, :7] = np.clip(new[:, :7], *limits)
         return new
 
-    z, (cost, *_), _, _ = descend(lambda z: _timed_state(family, z, targets, angles, cosine), step, z, _TIMED_STEPS)
+    z, (cost, *_), _, _ = descend(
+        lambda z: _timed_state(family, z, targets, angles, cosine), step, z, _TIMED_STEPS, slopes=slopes
+    )
     return np.asarray(z[np.argsort(cost, kind="stable")])
 
 

@@ -14,7 +14,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, StructuralError, outputs, structural_error
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.numerics.linear_program import least
-from gearlink.core.numerics.lm import State, damped, descend
+from gearlink.core.numerics.lm import State, damped_normal, descend, normal
 from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.linkages.functions import Wanted
 
@@ -168,11 +168,14 @@ def _descended(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) ->
         value = _misses(x, phi, psi, ratio, cosine)
         return np.sum(value**2, axis=1), value
 
+    def slopes(x: Reals, state: State) -> State:
+        return normal(_slopes(x, state[1], phi, psi, ratio, cosine), state[1])
+
     def step(x: Reals, state: State, damping: Reals) -> Reals:
-        moved = damped(_slopes(x, state[1], phi, psi, ratio, cosine), state[1], damping, scaled=False)
+        moved = damped_normal(state[2], state[3], damping, scaled=False)
         return x + np.clip(np.nan_to_num(moved), -0.4, 0.4)
 
-    x, (cost, _), _, _ = descend(state, step, x, _STEPS)
+    x, (cost, _), _, _ = descend(state, step, x, _STEPS, slopes=slopes)
     return x, cost
 
 

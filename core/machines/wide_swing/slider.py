@@ -37,7 +37,7 @@ _TOO_SHARP = (
     "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
     "the position where rod and arm are collinear, or lengthen slider.rod"
 )
-_GRID = np.linspace(0.0, math.pi, 257)
+_GRID = np.linspace(0.0, math.pi, 513)
 
 
 def reference_inertia(rocker_inertia: float, mass: float, stroke: float, swing: float) -> tuple[float, float]:

@@ -53,3 +53,39 @@ def test_a_step_is_that_of_the_normal_equations(scaled: bool) -> None:
         square = square + d * np.diag(size + 1e-3 * size.max() if scaled else np.ones_like(size))
         assert row[f] == pytest.approx(-np.linalg.solve(square, slope), rel=1e-9)
         assert np.all(row[~f] == 0.0)
+
+
+def test_a_row_that_is_stuck_at_the_most_damping_is_asked_no_more() -> None:
+    asked, bent = [], []
+
+    def state(x: Reals, wanted: Reals) -> State:
+        asked.append(len(x))
+        return np.abs(x[:, 0] - wanted), x.copy()
+
+    def slopes(x: Reals, known: State) -> State:
+        bent.append(len(x))
+        assert np.array_equal(x, known[1])
+        return (2.0 * x[:, 0],)
+
+    def step(x: Reals, state: State, _damping: Reals) -> Reals:
+        assert np.array_equal(state[2], 2.0 * x[:, 0])
+        return x + np.where(x < 10.0, 1.0, -0.1)  # the first goes the wrong way at any damping, the second gains
+
+    starts = np.array([[5.0], [19.0]])
+    found, (cost, place), damping, taken = descend(
+        state, step, starts, 40, slopes=slopes, given=(np.array([1.0, 2.0]),), damping=1.0, most=16.0
+    )
+    assert taken == 40
+    assert found[:, 0] == pytest.approx([5.0, 15.0])
+    assert cost == pytest.approx([4.0, 13.0])
+    assert np.array_equal(place, found)
+    assert damping[0] == 16.0
+    assert asked == [2] * 4 + [1] * 37
+    assert bent == [2] + [1] * 40
+    assert starts[1, 0] == 19.0
+
+
+def test_a_descent_of_stuck_rows_alone_ends_as_one_without_gains_does() -> None:
+    found, _, _, taken = descend(lambda x: (x[:, 0], x), lambda x, *_: x + 1.0, np.zeros((2, 1)), 50, damping=1e8)
+    assert np.array_equal(found, np.zeros((2, 1)))
+    assert taken == 6

@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.numerics.roots_sweep import bracketed_roots, root_between
+from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_places, root_between
 
 RNG = np.random.default_rng(3)
 
@@ -98,3 +100,21 @@ def test_a_root_between_two_places_is_found_in_a_few_calls(shape: str) -> None:
 def test_a_root_between_places_of_one_sign_is_refused() -> None:
     with pytest.raises(NoSolution, match="no sign change between"):
         root_between(lambda x: x * x + 1.0, -1.0, 1.0)
+
+
+def test_a_last_newton_step_below_a_billionth_is_not_confirmed() -> None:
+    wanted, asked = np.array([2.0, 9.0, 0.0]), []
+
+    def excess(x: Reals, rows: NDArray[np.intp]) -> tuple[Reals, Reals]:
+        asked.append(rows.size)
+        return x * x - wanted[rows], 2.0 * x + 1e-300
+
+    start = np.sqrt(wanted) * (1.0 + 0.9e-9 * np.array([1.0, 0.0, 0.0]))
+    found = newton_places(excess, start, 5.0)
+    assert found is not None
+    assert found == pytest.approx(np.sqrt(wanted), rel=4e-16, abs=0.0)
+    assert asked == [3]
+    asked.clear()
+    start[0] *= 1.0 + 1e-6
+    assert newton_places(excess, start, 5.0) == pytest.approx(np.sqrt(wanted), rel=4e-16, abs=0.0)
+    assert asked == [3, 1]

@@ -284,3 +284,15 @@ def test_swing_outside_its_range(swing: float, shown: str) -> None:
 def test_place_outside_the_stroke(k: float) -> None:
     with pytest.raises(NoSolution, match="between 0 and 1"):
         ElasticLaw(Pneumatic(2.5), 1.0).evaluate(k)
+
+
+@pytest.mark.parametrize("ratio", [1.01, 1.3, 2.5])
+def test_a_place_takes_little_more_than_one_step(monkeypatch: pytest.MonkeyPatch, ratio: float) -> None:
+    law, k, asked = ElasticLaw(Pneumatic(ratio), math.radians(120.0)), np.linspace(0.0, 1.0, 2001), []
+    law.evaluate(k)
+    of_angle = ElasticLaw.slowness
+    monkeypatch.setattr(
+        ElasticLaw, "slowness", lambda self, sine, cosine: asked.append(sine.size) or of_angle(self, sine, cosine)
+    )
+    law.evaluate(k[1:-1])
+    assert sum(asked) < 1.1 * k.size
