@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Sequence
 
 
@@ -92,7 +93,8 @@ def compared(value: float, limit: float, side: str, met: bool) -> tuple[str, str
     """
     way = -1 if side == ">=" else 1
     bound = float(f"{limit:.{_TYPED}g}")
-    if limit != bound and math.isclose(limit, bound, rel_tol=_NOISE) and (value >= bound) is (value >= limit):
+    stands = operator.ge if side == ">=" else operator.le
+    if limit != bound and math.isclose(limit, bound, rel_tol=_NOISE) and stands(value, bound) is stands(value, limit):
         limit = bound
     for digits in range(DIGITS, 17):
         low = directed(value, way, digits)

@@ -16,9 +16,8 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair, PitchPair
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair, PitchPair, bound_of_shift_sum
 from gearlink.core.parts.gears.tooth import teeth
-from gearlink.core.parts.gears.tooth.teeth import transverse
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
@@ -78,13 +77,6 @@ def _require_teeth(pair: GearPair) -> None:
 def least_distance(pair: PitchPair) -> float:
     """The minimum centre distance [mm]: |r_b1 + r_b2|."""
     return abs(pair.base_radius[0] + pair.base_radius[1])
-
-
-def bound_of_shift_sum(pair: PitchPair) -> float:
-    """The sum of shifts at which the pressure angle is 0 [module]: -(z_1 + z_2) inv(alpha_t)/(2 tan(alpha_n))."""
-    f = pair.fn
-    involute_t = f.involute(transverse(pair.pressure_angle, pair.helix_angle, f))
-    return -(pair.teeth[0] + pair.teeth[1]) * involute_t / (2.0 * f.tan(pair.pressure_angle))
 
 
 def require_distance(pair: GearPair, distance: float) -> None:

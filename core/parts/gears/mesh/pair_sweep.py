@@ -20,8 +20,8 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elementary_sweep import FUNCTIONS
 from gearlink.core.numerics.roots_sweep import bracketed_roots
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
-from gearlink.core.parts.gears.mesh.pair import GearPair, bound_of_shift_sum, least_distance
-from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair
+from gearlink.core.parts.gears.mesh.pair import GearPair, least_distance
+from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair, bound_of_shift_sum
 from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference, ShapedRing
 from gearlink.core.parts.gears.mesh.tip_corner import TipCorner, near_of, places_towards
 from gearlink.core.parts.gears.tooth import teeth
@@ -555,6 +555,9 @@ class ShapedRings(ShapedRing):
     """Rings of many shifts as one pinion cutter shapes them."""
 
     meshes: ClassVar[type[PitchPair]] = _Meshes
+
+    def _require_pressure_angle(self) -> None:
+        """Nothing is refused; without one they are NaN."""
 
     @cached_property
     def fillet_radius(self) -> Any:

@@ -178,3 +178,9 @@ class PitchPair:
             self.module * (math.pi / 2.0 + 2.0 * x[0] * tangent),
             self.module * (math.pi / 2.0 + 2.0 * x[1] * tangent),
         )
+
+
+def bound_of_shift_sum(pair: PitchPair) -> float:
+    """The sum of shifts at which the pressure angle is 0 [module]: -(z_1 + z_2) inv(alpha_t)/(2 tan(alpha_n))."""
+    involute_t = pair.fn.involute(pair.transverse_pressure_angle)
+    return -(pair.teeth[0] + pair.teeth[1]) * involute_t / (2.0 * pair.fn.tan(pair.pressure_angle))

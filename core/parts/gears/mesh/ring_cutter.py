@@ -15,7 +15,7 @@ from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair
+from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair, bound_of_shift_sum
 from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool
 
 if TYPE_CHECKING:
@@ -61,6 +61,10 @@ class ShapedRing:
     helix_angle: float = 0.0
 
     def __post_init__(self) -> None:
+        self._require_tip()
+        self._require_pressure_angle()
+
+    def _require_tip(self) -> None:
         if self._spare(self.cutter.rounding) >= 0.0:
             return
         if self._spare(0.0) < 0.0:
@@ -75,6 +79,16 @@ class ShapedRing:
             key="cutter.rounding",
             fix=f"set cutter.rounding to at most {safely_below(most)}",
         )
+
+    def _require_pressure_angle(self) -> None:
+        total, bound = self.mesh.shift_sum, bound_of_shift_sum(self.mesh)
+        if not total <= bound:
+            raise NoSolution(
+                f"sum of the profile shifts of cutter and ring: {unlike(total, bound)} (limit <= "
+                f"{unlike(bound, total)}: no working pressure angle of the cutter in the ring)",
+                key="cutter.shift",
+                fix="lower cutter.shift or the profile shift of the ring",
+            )
 
     def _spare(self, rounding: float) -> float:
         """Room for the tip rounding [module], negative where its centre lies inside the base circle or beyond the
