@@ -406,10 +406,9 @@ class Start:
             raise NoSolution(
                 f"the mechanism has {freedoms} degrees of freedom and {_count(drives, 'drive')}",
                 key="drive",
-                fix=(
-                    f"give {_count(freedoms - drives, 'more drive')} (drive.with), or join its links by "
-                    f"{_count(freedoms - drives, 'more mesh', 'more meshes')} or slots"
-                ),
+                fix=_joined(structure)
+                or f"join its links by {_count(freedoms - drives, 'more mesh', 'more meshes')} "
+                "or slots, or give more drives (drive.with)",
             )
         rows = joint_rows(structure, {}) + drive_rows(structure, self.exact_starts)
         rows += self._mesh_rows() + self._cam_rows()
@@ -835,6 +834,20 @@ def _newton(system: System, block: Block, y: Reals) -> bool:
 
 def _count(number: int, one: str, many: str = "") -> str:
     return f"{number} {one if abs(number) == 1 else many or one + 's'}"
+
+
+def _joined(structure: Structure) -> str:
+    """The advice of a link that one pin alone holds; none where all have more than one joint."""
+    spec = structure.spec
+    others = [*spec.slid, *(slot.on for slot in spec.slots.values()), *(slide.on for slide in spec.slides.values())]
+    others += [name for mesh in spec.meshes.values() for name in (*(mesh.gears or ()), mesh.rack, mesh.pinion) if name]
+    others += [name for cam in spec.cams.values() for name in (cam.cam, cam.follower)]
+    slots = {slot.point for slot in spec.slots.values()}
+    for name in spec.links:
+        held = [pin for pin in structure.pins if structure.numbers[name] in (pin.first, pin.second)]
+        if len(held) == 1 and name not in others and slots.isdisjoint(spec.bodies[name]):
+            return f"give {name} a second point that the frame or another link has, or a slide"
+    return ""
 
 
 def _starts(structure: Structure) -> str:

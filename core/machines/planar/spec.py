@@ -209,7 +209,7 @@ class PlanarSpec(TolerancedSpec):
     frame: Points = Field(description="points of the frame")
     links: Annotated[dict[Name, Bar | Points], Field(min_length=1, max_length=MOST_LINKS)] = Field(
         description="links by name: [P, Q, length], a bar whose x axis leads from P to Q; or points in coordinates of "
-        "the link. A point that several bodies have is a pin"
+        "the link, of a slider {P: [0, 0]} alone. A point that several bodies have is a pin"
     )
     slides: Annotated[dict[Name, Slide], Field(max_length=MOST_LINKS)] = Field({}, description="slides by name")
     slots: Annotated[dict[Name, Slot], Field(max_length=MOST_LINKS)] = Field({}, description="slots by name")
@@ -227,7 +227,9 @@ class PlanarSpec(TolerancedSpec):
     )
     range: Range | None = Field(None, description="inputs, where the input swings; default: it turns")
     outputs: Annotated[list[Name], Field(min_length=1, max_length=100)] | None = Field(
-        None, description="links, slides, slots and points that are looked at; default: all other links, then slides"
+        None,
+        description="links, slides, slots and points that are looked at; of a link that slides on the frame its slide; "
+        "default: all other links, then slides",
     )
     input_speed: Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
         None, description="speed of the input, of a slide in mm/s: with it real speeds and times are given"
@@ -268,9 +270,14 @@ class PlanarSpec(TolerancedSpec):
     @property
     def shown(self) -> list[str]:
         """The outputs: those of the file, or all links but the driven one and all slides."""
-        if self.outputs is not None:
-            return self.outputs
-        return [*(name for name in self.links if name != self.drive.main), *self.slides]
+        links = (name for name in self.links if name != self.drive.main)
+        names = [*links, *self.slides] if self.outputs is None else self.outputs
+        return list(dict.fromkeys(map(self.output, names)))
+
+    def output(self, name: str) -> str:
+        """What is looked at under a name: of a link that slides on the frame and does not turn, its slide."""
+        slide = self.slid.get(name, "")
+        return slide if slide and self.slides[slide].on == FRAME else name
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -8,8 +8,10 @@ from typing import Any
 import pytest
 from oracles.planar_zoo import PLANET, QUICK_RETURN, RACK_ON_LINK, WATT
 
+from gearlink.cli.opening import design
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 
 
@@ -36,6 +38,39 @@ def changed(base: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
     else:
         place[last] = value
     return made
+
+
+SLIDER_CRANK: dict[str, Any] = {
+    "frame": {"A": [0, 0]},
+    "links": {"crank": ["A", "B", 40], "rod": ["B", "C", 140], "piston": {"C": [0, 0]}},
+    "slides": {"guide": {"link": "piston", "on": "frame", "through": [0, 10], "direction": 0}},
+    "drive": {"link": "crank"},
+    "start": {"crank": 0, "rod": 0, "guide": 180},
+}
+
+
+@pytest.mark.parametrize(
+    ("outputs", "shown"),
+    [
+        (["piston"], ["guide"]),
+        (["guide", "piston"], ["guide"]),
+        (["C", "piston"], ["C", "guide"]),
+        (None, ["rod", "guide"]),
+    ],
+)
+def test_a_link_that_only_slides_is_shown_as_its_slide(outputs: list[str] | None, shown: list[str]) -> None:
+    """Its direction never changes: every row of it would be 0."""
+    made: Any = design(kind="planar-mechanism", **{**SLIDER_CRANK, "outputs": outputs})
+    assert made.spec.shown == shown
+    assert made.quantity("guide.stroke").value == pytest.approx(80.22, abs=0.01)
+
+
+@pytest.mark.parametrize("crank", [{"B": [40, 0]}, ["X", "B", 40]])
+def test_a_link_that_one_pin_holds_is_named(crank: Any) -> None:
+    made: Any = design(kind="planar-mechanism", **changed(SLIDER_CRANK, "links/crank", crank))
+    with pytest.raises(NoSolution, match="3 degrees of freedom and 1 drive") as refused:
+        made.report("analyze")
+    assert refused.value.fix == "give crank a second point that the frame or another link has, or a slide"
 
 
 @pytest.mark.parametrize(
