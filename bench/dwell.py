@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
-from gearlink.core.machines.three_gear import symmetric_sweep
+from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.momentary import momentary_frame_length
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric import dwell_angle
+from gearlink.core.numerics.elementary_sweep import ARRAYS
 
 Array = NDArray[np.float64]
 SIZES = (1, 1000, 100_000)
@@ -47,7 +48,12 @@ def _dwell(size: int, quick: bool) -> list[Method]:
         return Method(name, count, run, worst((found[i] for i in true), true.values()))
 
     return [
-        method("phi13: bracketed Newton", lambda: symmetric_sweep.dwell_angle(1.0 - i3, 0.5 * phi12), exact, size),
+        method(
+            "phi13: bracketed Newton",
+            lambda: 0.5 * phi12 + symmetric.regained(1.0 - i3, 0.5 * phi12, ARRAYS),
+            exact,
+            size,
+        ),
         method("phi13: scalar", lambda: [dwell_angle(*pair) for pair in pairs], early, few),
         *(method(f"phi13: unbracketed Newton, {k} steps", _plain(i3, phi12, k), exact, size) for k in (3, 5, 8)),
         method("phi13: brentq loop", lambda: [brentq_phi13(*pair) for pair in pairs], early, few),

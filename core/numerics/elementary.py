@@ -11,6 +11,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from gearlink.core.numerics.roots import newton_root
+
 One = Callable[[float], float]
 Two = Callable[[float, float], float]
 
@@ -20,10 +22,11 @@ class Elementary:
     """Functions of numbers, or of arrays element by element.
 
     Parameters
-        sin, cos, tan, asin, acos, atan, sqrt, hypot, atan2, copysign, floor : as in `math`
+        sin, cos, tan, asin, acos, atan, sqrt, cbrt, hypot, atan2, copysign, floor : as in `math`
         turn : exp(i angle); phase : direction of a complex number
         round : to so many decimals
         least, greatest : of two; where : the second where the first holds, else the third
+        root : of a rising function with its slope, in a bracket from a start on, as `roots.newton_root`
     """
 
     sin: One = math.sin
@@ -33,6 +36,7 @@ class Elementary:
     acos: One = math.acos
     atan: One = math.atan
     sqrt: One = math.sqrt
+    cbrt: One = math.cbrt
     hypot: Two = math.hypot
     atan2: Two = math.atan2
     copysign: Two = math.copysign
@@ -43,6 +47,7 @@ class Elementary:
     least: Two = min
     greatest: Two = max
     where: Callable[[bool, float, float], float] = lambda holds, one, other: one if holds else other
+    root: Callable[..., float] = newton_root
 
 
 SCALARS = Elementary()

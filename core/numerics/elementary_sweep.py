@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.numerics.elementary import Elementary
+from gearlink.core.numerics.roots_sweep import newton_roots
 
 FUNCTIONS: dict[str, Any] = {
     "sin": np.sin,
@@ -16,6 +17,7 @@ FUNCTIONS: dict[str, Any] = {
     "acos": np.arccos,
     "atan": np.arctan,
     "sqrt": np.sqrt,
+    "cbrt": np.cbrt,
     "hypot": np.hypot,
     "atan2": np.arctan2,
     "copysign": np.copysign,
@@ -26,5 +28,6 @@ FUNCTIONS: dict[str, Any] = {
     "least": np.minimum,
     "greatest": np.maximum,
     "where": np.where,
+    "root": newton_roots,
 }
 ARRAYS = Elementary(**FUNCTIONS)

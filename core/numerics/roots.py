@@ -76,13 +76,14 @@ def bracketed_root(
     return best
 
 
-def newton_root(f: Callable[[float], tuple[float, float]], low: float, high: float, start: float) -> float:
+def newton_root(f: Callable[..., tuple[float, float]], low: float, high: float, start: float, *given: float) -> float:
     """Root of a rising function whose derivative is known, by Newton's steps held inside a bracket that shrinks.
 
     Parameters
         f : the function and its derivative
         low, high : float - f(low) < 0 < f(high)
         start : float - between them
+        given : numbers that the function takes as well
     Returns
         x : float - to a few ulp, or where the steps are rounding of f
     Example
@@ -92,7 +93,7 @@ def newton_root(f: Callable[[float], tuple[float, float]], low: float, high: flo
     """
     x, last = start, math.inf
     for _ in range(200):
-        value, slope = f(x)
+        value, slope = f(x, *given)
         low, high = (x, high) if value < 0.0 else (low, x)
         step = value / slope if slope > 0.0 else math.inf
         if abs(step) <= 2.0 * math.ulp(x) or 0.5 * last <= abs(step) <= _ROUNDING * abs(x):

@@ -150,7 +150,7 @@ _GENERAL = {"machines.three_gear.families", "machines.three_gear.register"}
     [
         (
             "synth dwell designs/candy_feed.yaml",
-            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"machines.three_gear.symmetric_sweep"},
+            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"machines.three_gear.charts"},
         ),
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (

@@ -51,7 +51,7 @@ class DesignChart:
     parameter: Axis | None
     range: tuple[float, float]
     curves: tuple[float, ...] = ()
-    module: str = "machines.three_gear.symmetric_sweep"
+    module: str = "machines.three_gear.charts"
     kind: str = "three-gear-four-bar"
     peaked: bool = False
     given: tuple[tuple[str, float], ...] = ()
@@ -154,7 +154,7 @@ def _of_dwell(
 ) -> DesignChart:
     """A chart of the dwell within a tolerance."""
     span, curves = ends
-    module = "machines.three_gear.symmetric_sweep"
+    module = "machines.three_gear.charts"
     low, high = span
     return DesignChart(
         name,

@@ -109,6 +109,10 @@ class PlanetLinkage:
         """
         return self._rate(crank_angle, 3)
 
+    def rates(self, crank_angle: float, order: int) -> tuple[float, ...]:
+        """Angle of the output gear, and its derivatives by the crank angle up to an order."""
+        return self.angle(crank_angle), *(self._rate(crank_angle, k) for k in range(1, order + 1))
+
     def _rate(self, crank_angle: float, order: int) -> float:
         """A derivative of the output's angle, of coupler and carrier weighted by the ratio."""
         coupler, rocker = rates_of(self.linkage.reading, crank_angle, order)

@@ -257,18 +257,15 @@ def _gain(drive: PlanetLinkage, strip: float, start: float, end: float) -> float
     return drive.angle(end) - drive.angle(start)
 
 
-def tolerance_dwell(drive: PlanetLinkage, tolerance: float, *, placed: bool = True) -> ToleranceDwell:
+def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- a tolerance [rad] of a place that is free.
-
-    Parameters
-        placed : bool - False where its length alone is wanted
 
     Raises
         NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
     Notes
         See `gearlink.core.parts.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
     """
-    return longest_in_band(valley(drive), tolerance, placed=placed)
+    return longest_in_band(valley(drive), tolerance)
 
 
 def valley(drive: PlanetLinkage) -> Valley:
@@ -282,7 +279,7 @@ def valley(drive: PlanetLinkage) -> Valley:
         first = least - (least - step.start) % _TURN
         second = first + step.crank_angle
     low, high = least - (least - before) % _TURN, least + (after - least) % _TURN
-    return Valley(drive.angle, drive.speed, first, second, low, high, drive.mean_ratio())
+    return Valley(drive, first, second, least, low, high, drive.mean_ratio())
 
 
 def back_step_of(drive: PlanetLinkage) -> float:

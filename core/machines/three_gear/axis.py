@@ -27,7 +27,7 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, Findings, kept_inside
 from gearlink.core.base.spec_paths import number_at
-from gearlink.core.machines.three_gear import sweep, symmetric, symmetric_sweep
+from gearlink.core.machines.three_gear import sweep, symmetric
 from gearlink.core.machines.three_gear.codes import (
     BACK_STEP,
     DWELL_TOLERANCE,
@@ -331,8 +331,9 @@ class Batch:
         width = self.back_step[1]
         first = np.where(np.isfinite(width), self.start_of_back_step, least)
         second = np.where(np.isfinite(width), first + width, least)
-        valleys = Valleys(self.drives, first, second, least, greatest, self.given_tolerance)
-        return places, longest_in_band(valleys.part(places))
+        high = first + np.mod(greatest - first, math.tau)
+        valleys = Valleys(self.drives, first, second, least, high - math.tau, high, self.mean_ratio)
+        return places, longest_in_band(valleys.part(places), self.given_tolerance[places])
 
     @property
     def start_of_back_step(self) -> Reals:
@@ -449,6 +450,10 @@ def _near(value: Reals, limit: Reals, within: Any = _NEAR) -> Mask:
     """Where rounding might change on which side of a limit a value lies."""
     scale = np.maximum(1.0, np.maximum(np.abs(value), np.abs(limit)))
     return np.asarray(np.abs(value - limit) <= within * scale)
+
+
+def _in_range(value: Reals, low: Any, high: Any) -> Mask:
+    return np.asarray((low < value) & (value < high))
 
 
 def _without(each: Findings, gone: Mask) -> Findings:
@@ -692,7 +697,7 @@ class Symmetric(Batch):
     @cached_property
     def back_step(self) -> tuple[Reals, Reals]:
         """In closed form (thesis (4-19))."""
-        size = np.where(self._steps_back, symmetric_sweep.back_step(self.n, self.h), np.nan)
+        size = np.where(self._steps_back, symmetric.back_step(self.n, self.h, ARRAYS)[0], np.nan)
         return size, np.where(self._steps_back, 2.0 * self.h, np.nan)
 
     @cached_property
@@ -700,7 +705,8 @@ class Symmetric(Batch):
         """From its equation."""
         angle, places = np.full(self.count, np.nan), np.flatnonzero(self._steps_back)
         if places.size:
-            angle[places] = symmetric_sweep.dwell_angle(self.n[places], self.h[places])
+            h = self.h[places]
+            angle[places] = h + symmetric.regained(self.n[places], h, ARRAYS)
         return angle
 
     @cached_property
@@ -745,13 +751,13 @@ class Dwells(OfDwell):
     @cached_property
     def possible(self) -> Mask:
         """Below the limit of the gears."""
-        return symmetric_sweep.in_range(self._asked, 0.0, dwell_angle_limit(self.i3))
+        return _in_range(self._asked, 0.0, dwell_angle_limit(self.i3))
 
     @cached_property
     def h(self) -> Reals:
         """From phi13."""
         h, good = np.full(self.count, np.nan), self.exists
-        h[good] = symmetric_sweep.half_angle_for_dwell(self.n[good], self._asked[good])
+        h[good] = symmetric.half_angle_for_dwell(self.n[good], self._asked[good], ARRAYS)
         return h
 
     @cached_property
@@ -800,16 +806,16 @@ class Windows(OfDwell):
     def possible(self) -> Mask:
         """Windows and tolerances that the gears reach."""
         if self._by_window:
-            return symmetric_sweep.in_range(self._window, 0.0, window_limit(self.i3))
+            return _in_range(self._window, 0.0, window_limit(self.i3))
         most = np.minimum(math.pi, 0.5 * (self.z3 / self.z5) * math.pi)
-        return symmetric_sweep.in_range(self.given_tolerance, 0.0, most) & (self._back_step_sought > 0.0)
+        return _in_range(self.given_tolerance, 0.0, most) & (self._back_step_sought > 0.0)
 
     @cached_property
     def h(self) -> Reals:
         """From the window, or from the back-step that fills the band but for the margin."""
         h, good = np.full(self.count, np.nan), self.exists
-        found = symmetric_sweep.half_angle_for_window if self._by_window else symmetric_sweep.half_angle_for_back_step
-        h[good] = found(self.n[good], (self._window if self._by_window else self._back_step_sought)[good])
+        found = symmetric.half_angle_for_window if self._by_window else symmetric.half_angle_for_back_step
+        h[good] = found(self.n[good], (self._window if self._by_window else self._back_step_sought)[good], ARRAYS)
         return h
 
     @cached_property
@@ -817,8 +823,8 @@ class Windows(OfDwell):
         """The longest window that the tolerance leaves to the gears."""
         longest, good = np.full(self.count, np.nan), self.exists
         if good.any():
-            h = symmetric_sweep.half_angle_for_back_step(self.n[good], 2.0 * self.given_tolerance[good])
-            longest[good] = symmetric_sweep.longest_window(self.n[good], h)
+            h = symmetric.half_angle_for_back_step(self.n[good], 2.0 * self.given_tolerance[good], ARRAYS)
+            longest[good] = 2.0 * symmetric.regained(self.n[good], h, ARRAYS)
         return longest
 
     @property
@@ -852,7 +858,7 @@ class BackSteps(Symmetric):
     @cached_property
     def possible(self) -> Mask:
         """A crank angle always is; a back-step below the limit of the gears."""
-        return np.isfinite(self._given) | symmetric_sweep.in_range(self._asked, 0.0, math.pi * (self.n - 1.0))
+        return np.isfinite(self._given) | _in_range(self._asked, 0.0, math.pi * (self.n - 1.0))
 
     @cached_property
     def h(self) -> Reals:
@@ -860,7 +866,7 @@ class BackSteps(Symmetric):
         h = np.where(self.exists, self._given, np.nan)
         sought = np.flatnonzero(self.exists & np.isnan(self._given))
         if sought.size:
-            h[sought] = symmetric_sweep.half_angle_for_back_step(self.n[sought], self._asked[sought])
+            h[sought] = symmetric.half_angle_for_back_step(self.n[sought], self._asked[sought], ARRAYS)
         return h
 
     def of_task(self) -> Iterator[Findings]:

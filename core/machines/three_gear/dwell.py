@@ -26,6 +26,7 @@ from gearlink.core.machines.three_gear.momentary import (
     wrap,
 )
 from gearlink.core.machines.three_gear.motion import (
+    Course,
     Extremes,
     GearTrain,
     acceleration_extremes,
@@ -33,7 +34,6 @@ from gearlink.core.machines.three_gear.motion import (
     mean_ratio,
     output_acceleration,
     output_angle,
-    output_angles,
     output_jerk,
     output_speed,
     speed_extremes,
@@ -288,14 +288,13 @@ def tolerance_from_backlash(backlash: float, output_radius: float) -> float:
     return backlash / (2.0 * output_radius)
 
 
-def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float, *, placed: bool = True) -> ToleranceDwell:
+def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
 
     Parameters
         linkage : FourBar - crank-rocker or drag link
         train : GearTrain
         tolerance : float [rad] - 0 < tol < pi times the magnitude of the mean ratio
-        placed : bool - False where its length alone is wanted
     Returns
         dwell : ToleranceDwell [rad]
     Raises
@@ -313,7 +312,7 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float, *, pla
     from gearlink.core.parts.linkages.band_dwell import longest_in_band
 
     ahead = forward(linkage, train)
-    found = longest_in_band(valley(linkage, ahead), tolerance, placed=placed)
+    found = longest_in_band(valley(linkage, ahead), tolerance)
     return found._replace(output_angle=train.sense * ahead.sense * found.output_angle)
 
 
@@ -330,10 +329,10 @@ def _valley(linkage: FourBar, train: GearTrain, least: float, greatest: float, s
     first, second = (least, least) if step is None else (step.start, step.start + step.crank_angle)
     after = first + (greatest - first) % _TURN
     return Valley(
-        output_angles(linkage, train),
-        lambda phi: output_speed(linkage, train, phi),
+        Course(linkage, train, solve(linkage, 0.0)),
         first,
         second,
+        first + (least - first) % _TURN,
         after - _TURN,
         after,
         mean_ratio(linkage, train),

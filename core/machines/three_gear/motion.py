@@ -116,16 +116,33 @@ def output_angle(linkage: FourBar, train: GearTrain, crank_angle: float) -> floa
     return _turned(train, crank_angle, solve(linkage, crank_angle), solve(linkage, 0.0))
 
 
-def output_angles(linkage: FourBar, train: GearTrain) -> Callable[[float], float]:
-    """`output_angle` as a function of the crank angle alone, for searches: the start is computed once.
+class Course(NamedTuple):
+    """The output's angle and its derivatives, for searches: its start is computed once.
 
     Example
         >>> train, linkage = GearTrain(20, 20, 60), FourBar(18.0, 50.0, 100.0, 121.4)
-        >>> output_angles(linkage, train)(2.0) == output_angle(linkage, train, 2.0)
+        >>> course = Course(linkage, train, solve(linkage, 0.0))
+        >>> course.rates(2.0, 1) == (output_angle(linkage, train, 2.0), output_speed(linkage, train, 2.0))
         True
     """
-    start = solve(linkage, 0.0)
-    return lambda crank_angle: _turned(train, crank_angle, solve(linkage, crank_angle), start)
+
+    linkage: FourBar
+    train: GearTrain
+    start: FourBarState
+
+    def angle(self, crank_angle: float) -> float:
+        """`output_angle`."""
+        return _turned(self.train, crank_angle, solve(self.linkage, crank_angle), self.start)
+
+    def speed(self, crank_angle: float) -> float:
+        """`output_speed`."""
+        return output_speed(self.linkage, self.train, crank_angle)
+
+    def rates(self, crank_angle: float, order: int) -> tuple[float, ...]:
+        """Angle, and derivatives up to an order."""
+        state = solve(self.linkage, crank_angle, order)
+        speed, *more = (blend(self.train, *state[k : k + 2]) for k in range(3, 3 + 2 * order, 2))
+        return _turned(self.train, crank_angle, state, self.start), self.train.ratio + speed, *more
 
 
 def _turned(train: GearTrain, crank_angle: float, state: FourBarState, start: FourBarState) -> float:

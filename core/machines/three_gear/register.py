@@ -505,7 +505,7 @@ class DriveSamples:
 
     def angle_at(self, phi: Reals) -> Reals:
         """Output angles [rad] at crank angles against the line A-D, of any zero."""
-        return sweep.output_angle(phi, self.drives)
+        return self.drives.angle(phi)
 
     # Extremes
 
@@ -627,8 +627,11 @@ class DriveSamples:
         tolerance, dwell = self.nominal.output_tolerance, self.nominal.tolerance_dwell
         if tolerance is None or dwell is None:
             return np.full(self.count, np.nan)
-        places = (*self.standstills, self._least[1], self._greatest[1])
-        found = sweep.longest_in_band(sweep.Valleys(self.drives, *places, np.full(self.count, tolerance)))
+        first, second = self.standstills
+        high = first + np.mod(self._greatest[1] - first, _TURN)
+        mean = np.full(self.count, abs(self.nominal.mean_ratio))
+        valleys = sweep.Valleys(self.drives, first, second, self._least[1], high - _TURN, high, mean)
+        found = sweep.longest_in_band(valleys, np.full(self.count, tolerance))
         self.unsettled |= found.doubtful
         return found.crank_angle
 

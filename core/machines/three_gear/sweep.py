@@ -3,15 +3,14 @@
 The formulas are those of `linkages.fourbar.loop`, `motion`, `momentary` and `dwell`, which take arrays. Searches stand
 here: Newton's, where each design that rests is frozen, so that its last bit does not depend on its neighbours.
 
-The longest dwell within a tolerance is that of `linkages.band_dwell`: inside the band both ends are found together, by
-Newton's method in two unknowns; where one end binds, and where the back-step is wider than the band, by roots inside
-brackets. The one has brackets inside a bracket, whose steps multiply; the search therefore stands here again.
+The longest dwell within a tolerance is that of `linkages.band_dwell`.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,13 +23,19 @@ from gearlink.core.machines.three_gear.motion import blend
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_roots
+from gearlink.core.parts.linkages.band_dwell import (
+    MOST_STEPS,
+    REST,
+    Valley,
+    ends_in_band,
+    half_of_parabola,
+    to_one_speed,
+)
 from gearlink.core.parts.linkages.fourbar.loop import make_reading, rates, triangle
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
 
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40  # of a search for an extreme [rad]
-_FIT = 1e-13
-_LONGEST_OF_ENDS = 0.4  # step of both ends of a band [rad]
 _NEAR, _SLOW = 1e-9, 1e-5
 _BLOCK = 8192
 
@@ -58,6 +63,19 @@ class Drives(NamedTuple):
     def part(self, places: Any) -> Drives:
         """Some of the designs."""
         return Drives(*(row[places] for row in self))
+
+    def angle(self, phi: Reals) -> Reals:
+        """Angle of the output [rad], continuous in the crank angle; its zero is any."""
+        return _angle(phi, self, _triangle(phi, self))
+
+    def speed(self, phi: Reals) -> Reals:
+        """Speed ratio of the output."""
+        return speed(phi, self, 1)[0]
+
+    def rates(self, phi: Reals, order: int) -> tuple[Reals, ...]:
+        """`angle`, and its derivatives by the crank angle up to an order; of one triangle."""
+        found = _triangle(phi, self)
+        return _angle(phi, self, found), *_speeds(self, found, order)
 
 
 def drives_of(lengths: Any, assembly: int, *shares: Any) -> Drives:
@@ -103,17 +121,6 @@ def terms(phi: Reals, links: Drives) -> Reals:
     """The size of what the speed ratio is summed from."""
     b_1, c_1 = rates(links, _triangle(phi, links), 1)
     return np.asarray(np.abs(links.ratio) + np.abs(links.coupler_share * b_1) + np.abs(links.rocker_share * c_1))
-
-
-def output_angle(phi: Reals, links: Drives) -> Reals:
-    """Angle of the output [rad], continuous in the crank angle; its zero is any."""
-    return _angle(phi, links, _triangle(phi, links))
-
-
-def angle_and_speed(phi: Reals, links: Drives, order: int = 1) -> tuple[Reals, ...]:
-    """`output_angle` and `speed` of one triangle."""
-    found = _triangle(phi, links)
-    return _angle(phi, links, found), *_speeds(links, found, order)
 
 
 def _angle(phi: Reals, links: Drives, found: Any) -> Reals:
@@ -209,34 +216,19 @@ def back_step(low: Reals, high: Reals, links: Drives) -> tuple[Reals, Reals, Rea
     falls = speed(low, links, 2)[1] <= 0.0
     start, end = np.where(falls, low, high), np.where(falls, high, low)
     width = wrapped(end - start)
-    return start, width, output_angle(start, links) - output_angle(start + width, links)
+    return start, width, links.angle(start) - links.angle(start + width)
 
 
 def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
     """phi13 [rad]: the crank angle from the start until the output has regained its place, as `dwell.dwell_angle`."""
-    level = output_angle(start, links)
+    level = links.angle(start)
 
     def gained(x: Reals, start: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
-        angle, ratio = angle_and_speed(start + x, Drives(*rows))
+        angle, ratio = Drives(*rows).rates(start + x, 1)
         return angle - level, ratio
 
     high = np.full(width.shape, _TURN)
     return newton_roots(gained, width, high, np.minimum(1.5 * width, 0.5 * (width + high)), start, level, *links)
-
-
-class Valleys(NamedTuple):
-    """Where outputs are slow, (N,) arrays [rad]: `Valley` of `linkages.band_dwell`, and where the speed is smallest."""
-
-    drives: Drives
-    first: Reals
-    second: Reals
-    least: Reals
-    greatest: Reals
-    tolerance: Reals
-
-    def part(self, places: Any) -> Valleys:
-        """Some of the designs."""
-        return Valleys(self.drives.part(places), *(row[places] for row in self[1:]))
 
 
 class Dwells(NamedTuple):
@@ -248,139 +240,83 @@ class Dwells(NamedTuple):
     doubtful: Mask
 
 
-def longest_in_band(valleys: Valleys) -> Dwells:
+class Valleys(Valley):
+    """The `Valley` of many outputs, whose `course` are their `Drives`; places are (N,) arrays."""
+
+    fn = ARRAYS
+
+    def part(self, places: Any) -> Valleys:
+        """Some of the outputs."""
+        rows = (getattr(self, each.name)[places] for each in fields(self)[1:])
+        return Valleys(self.course.part(places), *rows)
+
+    def reach(self, level: Any, left: Any, right: Any, sign: float = 1.0, start: Any = None) -> Any:
+        """As of one."""
+
+        def above(x: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
+            angle, ratio = Drives(*rows).rates(x, 1)
+            return sign * (angle - level), sign * ratio
+
+        at_left, at_right = (sign * (self.angle(end) - level) for end in (left, right))
+        middle = 0.5 * (left + right)
+        begin = middle if start is None else np.where((left < start) & (start < right), start, middle)
+        found = newton_roots(above, left, right, begin, level, *self.course)
+        return np.where(at_left >= 0.0, left, np.where(at_right <= 0.0, right, found))
+
+    def either(self, holds: Any, one: Callable[..., Any], other: Callable[..., Any], *given: Any) -> Any:
+        """As of one, for each of them."""
+        found: list[Any] = []
+        for places, function in ((np.flatnonzero(holds), one), (np.flatnonzero(~holds), other)):
+            if places.size == holds.size:
+                return function(self, *given)
+            if not places.size:
+                continue
+            parts = function(self.part(places), *(each[places] for each in given))
+            found = found or [np.empty(holds.shape, dtype=part.dtype) for part in parts]
+            for whole, part in zip(found, parts, strict=True):
+                whole[places] = part
+        return found
+
+    def settled(self, tolerance: Any) -> tuple[Any, Any, Any]:
+        """As of one, each by itself."""
+        half = half_of_parabola(self, tolerance)
+        left, right = self.least - half, self.least + half
+        rests, live = np.zeros(left.shape, dtype=bool), np.arange(left.size)
+        for _ in range(MOST_STEPS):
+            if not live.size:
+                break
+            some = self.course.part(live)
+            back, on = to_one_speed(some, left[live], right[live], tolerance[live], ARRAYS)
+            left[live] += back
+            right[live] += on
+            rest = (np.abs(back) <= REST) & (np.abs(on) <= REST)
+            rests[live[rest]] = True
+            live = live[~rest & np.isfinite(back) & np.isfinite(on)]
+        return left, right, rests
+
+    def held(self, f: Callable[..., Any], most: Any, *given: Any) -> Any:
+        """As of one, each by itself; NaN where there is no root."""
+        least = np.zeros(most.shape)
+        first, last = f(self, least, *given), f(self, most, *given)
+        found = np.where(first >= 0.0, least, most)
+        places = np.flatnonzero(~(first >= 0.0) & ~(last <= 0.0))
+        if places.size:
+            some, rest, ends = self.part(places), [each[places] for each in given], (first[places], last[places])
+            found[places] = bracketed_roots(lambda x: f(some, x, *rest), least[places], most[places], ends=ends)
+        return found
+
+
+def longest_in_band(valleys: Valleys, tolerance: Reals) -> Dwells:
     """The longest crank interval over which each output stays within +- tol of a place that is free to choose.
 
     Parameters
-        valleys : Valleys - tolerances below half of what the output gains in a revolution
+        tolerance : (N,) array [rad] - below half of what the output gains in a revolution
     """
-    band = 2.0 * valleys.tolerance
-    drop = _drop(valleys)
-    wide = drop > band * (1.0 + _FIT)
-    doubtful = np.asarray((drop > 0.0) & (np.abs(drop - band) <= _NEAR))
-    left, right = np.full(drop.shape, np.nan), np.full(drop.shape, np.nan)
-    tied = np.zeros(drop.shape, dtype=bool)
-    for places, ends in ((np.flatnonzero(~wide), _around_both), (np.flatnonzero(wide), _around_one_extreme)):
-        if places.size:
-            left[places], right[places], mark = ends(valleys.part(places))
-            (doubtful if ends is _around_both else tied)[places] |= mark
-    slowest = np.minimum(*(np.abs(speed(end, valleys.drives, 1)[0]) for end in (left, right)))
-    return Dwells(wrapped(left), right - left, tied, doubtful | ~(slowest > _SLOW))
-
-
-def _drop(valleys: Valleys) -> Reals:
-    fall = output_angle(valleys.first, valleys.drives) - output_angle(valleys.second, valleys.drives)
-    return np.where(valleys.second > valleys.first, fall, 0.0)
-
-
-def _around_both(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
-    """Intervals that hold both standstills: ends of one speed, or one end that binds; and what did not settle."""
-    drives, first, second = valleys.drives, valleys.first, valleys.second
-    high = first + np.mod(valleys.greatest - first, _TURN)
-    low = high - _TURN
-    bottom, top = output_angle(second, drives), output_angle(first, drives)
-    left, right, rests = _of_one_speed(valleys)
-    inside = rests & (low <= left) & (left <= first) & (second <= right) & (right <= high)
-    inside &= (output_angle(left, drives) <= bottom) & (output_angle(right, drives) >= top)
-    places = np.flatnonzero(~inside)
-    if places.size:
-        part = valleys.part(places)
-        left[places], right[places], inside[places] = _with_one_end(part, low[places], high[places])
-    return left, right, ~inside
-
-
-def _of_one_speed(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
-    """phi5(R) - phi5(L) = 2 tol, W(L) = W(R), from the cubic about the minimum speed."""
-    drives, tolerance = valleys.drives, valleys.tolerance
-    least, _, bend = speed(valleys.least, drives)
-    reach = np.sqrt(np.maximum(-6.0 * least / bend, 0.0)) + np.cbrt(6.0 * tolerance / bend)
-    for _ in range(4):
-        reach = reach - (least * reach + bend * reach**3 / 6.0 - tolerance) / (least + 0.5 * bend * reach * reach)
-    reach = np.where(reach > 0.0, np.minimum(reach, 0.5 * math.pi), 0.5 * math.pi)
-    left, right = valleys.least - reach, valleys.least + reach
-    rests = np.zeros(left.shape, dtype=bool)
-    live: Any = np.arange(left.size)
-    for _ in range(_MOST_STEPS):
-        some, band = drives.part(live), 2.0 * tolerance[live]
-        one, other = left[live], right[live]
-        (a1, w1, s1), (a2, w2, s2) = angle_and_speed(one, some, 2), angle_and_speed(other, some, 2)
-        missing, faster = a2 - a1 - band, w2 - w1
-        whole = w2 * s1 - w1 * s2
-        back, on = (w2 * faster - s2 * missing) / whole, (w1 * faster - s1 * missing) / whole
-        # The steps of the search are held, no result.
-        back, on = np.clip(back, -_LONGEST_OF_ENDS, _LONGEST_OF_ENDS), np.clip(on, -_LONGEST_OF_ENDS, _LONGEST_OF_ENDS)
-        left[live], right[live] = one + back, other + on
-        rest = (np.abs(back) <= _RESTS) & (np.abs(on) <= _RESTS)
-        rests[live[rest]] = True
-        live = live[~rest & np.isfinite(back) & np.isfinite(on)]
-        if not live.size:
-            break
-    return left, right, rests
-
-
-def _with_one_end(valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals, Reals, Mask]:
-    """One end as far as it may be where the speeds at both cannot be equal; else a root inside brackets of how far the
-    output rises to its place at phi(2). And where that was found.
-    """
-    bounds = low, high, *(output_angle(place, valleys.drives) for place in (low, high, valleys.second))
-    least, most = np.zeros(low.shape), np.maximum(2.0 * valleys.tolerance - _drop(valleys), 0.0)
-    first, last = (_ends(rise, valleys, *bounds)[2] for rise in (least, most))
-    early, late = first <= 0.0, last >= 0.0
-    rise = np.where(early, least, most)
-    between = np.flatnonzero(~early & ~late)
-    if between.size:
-        some, around = valleys.part(between), [bound[between] for bound in bounds]
-        ends = first[between], last[between]
-        rise[between] = bracketed_roots(lambda x: _ends(x, some, *around)[2], least[between], most[between], ends=ends)
-    left, right, _ = _ends(rise, valleys, *bounds)
-    return left, right, np.isfinite(rise)
-
-
-def _ends(
-    rise: Reals, valleys: Valleys, low: Reals, high: Reals, floor: Reals, ceiling: Reals, bottom: Reals
-) -> tuple[Reals, Reals, Reals]:
-    """Both ends of the interval that begins so far below the output's place at phi(2), and the gain of speed in it; an
-    end lies beyond the maximum speed's place `low` or `high` where the output has its level `floor` or `ceiling` there.
-    """
-    drives, first, second = valleys.drives, valleys.first, valleys.second
-    start, end = bottom - rise, bottom - rise + 2.0 * valleys.tolerance
-    early, late = start < floor, end > ceiling
-    left = _reach(drives, start, np.where(early, second - _TURN, low), np.where(early, low, first))
-    right = _reach(drives, end, np.where(late, high, second), np.where(late, first + _TURN, high))
-    return left, right, speed(right, drives, 1)[0] - speed(left, drives, 1)[0]
-
-
-def _around_one_extreme(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
-    """The longer of the intervals around phi(1) and phi(2), of back-steps above 2 tol; and where both are as long."""
-    drives, first, second = valleys.drives, valleys.first, valleys.second
-    found = []
-    for place, away, outside in ((first, -1.0, (second - _TURN, first)), (second, 1.0, (second, first + _TURN))):
-        angle, _, slope = angle_and_speed(place, drives, 2)
-        level = angle + away * 2.0 * valleys.tolerance
-        spread = away * np.sqrt(4.0 * valleys.tolerance / np.abs(slope))  # of the parabola
-        out = _reach(drives, level, *outside, start=place + spread)
-        found.append((out, _reach(drives, level, first, second, -1.0, start=place - spread))[:: -int(away)])
-    before, after = found
-    gained = (before[1] - before[0]) - (after[1] - after[0])
-    earlier = gained >= 0.0
-    left, right = np.where(earlier, before[0], after[0]), np.where(earlier, before[1], after[1])
-    return left, right, np.abs(gained) <= _NEAR
-
-
-def _reach(
-    drives: Drives, level: Reals, left: Reals, right: Reals, sign: float = 1.0, start: Reals | None = None
-) -> Reals:
-    """Crank angles between two others at which rising (sign 1) or falling outputs pass a level; else the nearer end."""
-
-    def above(x: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
-        angle, ratio = angle_and_speed(x, Drives(*rows))
-        return sign * (angle - level), sign * ratio
-
-    at_left, at_right = (sign * (output_angle(end, drives) - level) for end in (left, right))
-    middle = 0.5 * (left + right)
-    begin = middle if start is None else np.where((left < start) & (start < right), start, middle)
-    found = newton_roots(above, left, right, begin, level, *drives)
-    return np.where(at_left >= 0.0, left, np.where(at_right <= 0.0, right, found))
+    left, right, _, unsure, wide = ends_in_band(valleys, tolerance)
+    drop = valleys.drop
+    doubtful = np.asarray((drop > 0.0) & (np.abs(drop - 2.0 * tolerance) <= _NEAR)) | (unsure & ~wide)
+    slowest = np.minimum(*(np.abs(valleys.speed(end)) for end in (left, right)))
+    return Dwells(wrapped(left), right - left, unsure & wide, doubtful | ~(slowest > _SLOW))
 
 
 @dataclass(frozen=True, slots=True)

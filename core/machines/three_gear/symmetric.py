@@ -22,13 +22,12 @@ Within +-tau of a place that is free to choose the output stays longest where th
 which for tau -> 0 is 4/3 of phi13 and 4^(1/3) = 1.59 times the window of the momentary dwell. A back-step that exceeds
 the band by a last bit leaves only phi13 of it: the window jumps there, so no design aims at the limit itself.
 
-Other teeth: `gearlink.core.machines.three_gear.dwell` and `momentary`; many designs at once: `symmetric_sweep`.
+Other teeth: `gearlink.core.machines.three_gear.dwell` and `momentary`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -40,7 +39,7 @@ from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.motion import Extremes, GearTrain
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
-from gearlink.core.numerics.roots import bracketed_root, maximum
+from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep
 
@@ -49,7 +48,7 @@ _SERIES_BELOW = 0.5
 _INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
 _POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
 _POLISHED_I3 = -0.1
-_ROUNDING = 1e-9  # [rad]; at the limits 6e-13 of the wrong sign were seen, at i3 = -100
+_QUARTER = 0.5 * math.pi
 _PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
 _NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
 _INSIDE = 1e-9
@@ -321,8 +320,9 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
             ),
             fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or take an idler of more teeth",
         )
-    v = i3 / (i3 - 1.0)
-    return 2.0 * _rising_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
+    n, v = 1.0 - i3, i3 / (i3 - 1.0)
+    h: float = half_angle_for_back_step(n, back_step_angle)
+    return 2.0 * newton_root(lambda h: (_back_step(v, h) - back_step_angle, back_step(n, h)[1]), 0.0, _QUARTER, h)
 
 
 def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -352,9 +352,10 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     h = 0.5 * back_step_crank_angle
     if h == 0.0:
         return 0.0
-    y = _rising_root(lambda y: -_fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
-    if _polished(i3, h):
-        y -= _fallen_by_integral(i3, h, y) / _reverse(i3, h, y)
+    y: float = regained(1.0 - i3, h)
+    if _by_integral(i3, h):
+        ends = 0.5 * y, 2.0 * y
+        y = newton_root(lambda y: (-_fallen_by_integral(i3, h, y), above(y, 1.0 - i3, h)[1]), *ends, y)
     return h + y
 
 
@@ -399,13 +400,8 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
             ),
             fix=f"reduce dwell.angle{_ratio_remedy(dwell_angle)}",
         )
-    high = min(0.5 * dwell_angle, 0.5 * math.pi)
-    h = _rising_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
-    if _polished(i3, h):
-        near = 1e-4 * h
-        slope = (_fallen(i3, h + near, dwell_angle - h - near) - _fallen(i3, h - near, dwell_angle - h + near)) / near
-        h -= 2.0 * _fallen_by_integral(i3, h, dwell_angle - h) / slope
-    return 2.0 * h
+    h: float = half_angle_for_dwell(1.0 - i3, dwell_angle)
+    return 2.0 * _polished(i3, h, -1.0, dwell_angle - h)
 
 
 def window_limit(i3: Any) -> Any:
@@ -452,28 +448,15 @@ def crank_angle_for_window(i3: float, window: float) -> float:
             ),
             fix=f"set dwell.window below {safely_below(math.degrees(limit))} deg",
         )
-    y = 0.5 * window
-    h = _rising_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))
-    if _polished(i3, h):
-        near = 1e-4 * h
-        slope = (_fallen(i3, h + near, y) - _fallen(i3, h - near, y)) / near
-        h -= 2.0 * _fallen_by_integral(i3, h, y) / slope
-    return 2.0 * h
+    h: float = half_angle_for_window(1.0 - i3, window)
+    return 2.0 * _polished(i3, h, 0.0, 0.5 * window)
 
 
-def _rising_root(f: Callable[[float], float], low: float, high: float) -> float:
-    """Root of a function that is negative at the low end and positive at the high one, or at a limit zero there.
-
-    At a limit rounding may leave either sign, and that end is the root.
-    """
-    first, last = f(low), f(high)
-    if 0.0 <= first < _ROUNDING:
-        return low
-    return high if -_ROUNDING < last <= 0.0 else bracketed_root(f, low, high, ends=(first, last))
+# One design or many; many do without the last digits, which series and integrals give to one
 
 
 def _back_step(v: float, h: float) -> float:
-    """Equation (4-19) in v = (n - 1)/n, 0 <= v <= 1 (1: i3 = -infinity), and h."""
+    """Equation (4-19) in v = (n - 1)/n, 0 <= v <= 1 (1: i3 = -infinity), and h, to the last digits."""
     t, x = math.tan(h), 1.0 - v
     if t < _SERIES_BELOW:
         log_x = math.log1p(-v) if v < 1.0 else -math.inf
@@ -484,22 +467,90 @@ def _back_step(v: float, h: float) -> float:
     return 2.0 * (first - math.atan(v / (1.0 / t + x * t)))
 
 
-def _fallen(i3: float, h: float, y: float) -> float:
-    """How far the output at 270 deg + y stands below its place at 270 deg - h; zero at y = phi13 - h."""
-    n, rest = 1.0 - i3, i3 * (i3 - 2.0) * math.cos(h) ** 2
-    if h < _INTEGRAL_BELOW:
-        return _fallen_by_integral(i3, h, y)
-    at_y = math.atan2(math.sin(y), math.sqrt(rest + math.cos(y) ** 2))
-    return n * (at_y + math.atan(math.tan(h) / n)) - h - y
+def back_step(n: Any, h: Any, fn: Elementary = SCALARS) -> tuple[Any, Any]:
+    """The back-step [rad] over 2 h as a difference, which loses digits as 1/h^2, and its derivative by h."""
+    squares = n * n - 1.0
+    slope = 2.0 * squares * fn.sin(h) ** 2 / (1.0 + squares * fn.cos(h) ** 2)
+    return 2.0 * (n * fn.atan2(fn.sin(h), n * fn.cos(h)) - h), slope
 
 
-def _polished(i3: float, h: float) -> bool:
-    """Whether a last step with the integral gives digits back: ten Gauss points need a singularity far enough away."""
-    return i3 <= _POLISHED_I3 and _INTEGRAL_BELOW <= h < _POLISHED_BELOW
+def half_angle_for_back_step(n: Any, angle: Any, fn: Elementary = SCALARS) -> Any:
+    """h of a back-step [rad]."""
+
+    def missing(h: Any, n: Any, angle: Any) -> tuple[Any, Any]:
+        value, slope = back_step(n, h, fn)
+        return value - angle, slope
+
+    start = fn.least(fn.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
+    return fn.root(missing, 0.0 * n, 0.0 * n + _QUARTER, start, n, angle)
+
+
+def above(y: Any, n: Any, h: Any, fn: Elementary = SCALARS) -> tuple[Any, Any, Any]:
+    """How far the output at 270 deg + y stands above its place at 270 deg - h, and its derivatives by y and by h.
+
+    h + y - n [asin(k sin(y)) + asin(k sin(h))]
+    """
+    sin_h, cos_h, sin_y, cos_y, squares = fn.sin(h), fn.cos(h), fn.sin(y), fn.cos(y), n * n - 1.0
+    constant = squares * cos_h * cos_h
+    root, whole = fn.sqrt(constant + cos_y * cos_y), constant + 1.0
+    value = h + y - n * (fn.atan2(sin_y, root) + fn.atan2(sin_h, n * cos_h))
+    ahead = squares * (sin_y - sin_h) * (sin_y + sin_h) / (root * (root + n * abs(cos_y)))  # no digit lost at y = h
+    by_h = -squares * sin_h / whole * (sin_h + n * sin_y * cos_h / root)
+    return value, fn.where(cos_y > 0.0, ahead, 1.0 - n * cos_y / root), by_h
+
+
+def regained(n: Any, h: Any, fn: Elementary = SCALARS) -> Any:
+    """y where the output regains the place that it has at -h: phi13 = y + h."""
+    high = fn.least(3.0 * h, 2.0 * math.pi * n / (n + 1.0) - h)
+    # At y = h the value is smallest: beyond it it rises, and the root lies at about 2 h.
+    return fn.root(lambda y, n, h: above(y, n, h, fn)[:2], h, high, fn.least(2.0 * h, high), n, h)
+
+
+def half_angle_for_dwell(n: Any, phi13: Any, fn: Elementary = SCALARS) -> Any:
+    """h whose place is regained after phi13: y = phi13 - h."""
+
+    def missing(h: Any, n: Any, phi13: Any) -> tuple[Any, Any]:
+        value, by_y, by_h = above(phi13 - h, n, h, fn)
+        return -value, by_y - by_h
+
+    high = fn.least(0.5 * phi13, _QUARTER)
+    return fn.root(missing, 0.25 * phi13, high, fn.least(phi13 / 3.0, high), n, phi13)
+
+
+def half_angle_for_window(n: Any, window: Any, fn: Elementary = SCALARS) -> Any:
+    """h of the back-step whose band the output touches twice over a window: y = window/2 is given."""
+
+    def missing(h: Any, n: Any, y: Any) -> tuple[Any, Any]:
+        value, _, by_h = above(y, n, h, fn)
+        return -value, -by_h
+
+    y = 0.5 * window
+    return fn.root(missing, y / 3.0, fn.least(y, _QUARTER), fn.least(0.5 * y, 0.9 * _QUARTER), n, y)
+
+
+def _by_integral(i3: float, h: float) -> bool:
+    """Whether the integral keeps digits that differences lose: ten Gauss points need a singularity far enough away."""
+    return h < _INTEGRAL_BELOW or (i3 <= _POLISHED_I3 and h < _POLISHED_BELOW)
+
+
+def _polished(i3: float, h: float, share: float, y: float) -> float:
+    """h to the last digits by the integral.
+
+    Parameters
+        share : float - by what y = (y at h) + share times the change of h goes with h
+    """
+    if not _by_integral(i3, h):
+        return h
+
+    def missing(x: float) -> tuple[float, float]:
+        _, by_y, by_h = above(y + share * (x - h), 1.0 - i3, x)
+        return _fallen_by_integral(i3, x, y + share * (x - h)), -share * by_y - by_h
+
+    return newton_root(missing, 0.5 * h, 2.0 * h, h)
 
 
 def _fallen_by_integral(i3: float, h: float, y: float) -> float:
-    """The same as the integral of `_reverse` from -h to y: no cancellation."""
+    """How far the output stands below: the integral of its backward speed from -h to y, without cancellation."""
     n, rest = 1.0 - i3, i3 * (i3 - 2.0)
     square, constant = math.sin(h) ** 2, rest * math.cos(h) ** 2
     count = math.ceil((h + y) / _PART)
@@ -516,15 +567,6 @@ def _fallen_by_integral(i3: float, h: float, y: float) -> float:
             else:
                 total += w * (square - math.sin(place) ** 2) / (root * (root + n * cosine))
     return rest * half * total
-
-
-def _reverse(i3: float, h: float, y: float) -> float:
-    """Backward speed ratio -W at 270 deg + y, as a product that vanishes exactly at y = +-h."""
-    n, rest = 1.0 - i3, i3 * (i3 - 2.0)
-    root = math.sqrt(rest * math.cos(h) ** 2 + math.cos(y) ** 2)
-    if math.cos(y) < 0.0:
-        return n * math.cos(y) / root - 1.0
-    return rest * math.sin(h - y) * math.sin(h + y) / (root * (root + n * math.cos(y)))
 
 
 def _ratio_remedy(phi13: float) -> str:

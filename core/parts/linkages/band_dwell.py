@@ -1,5 +1,8 @@
 """The longest dwell of any output within a band, which stays within +- tol of a position that is free to choose.
 
+The search stands once for one output and for many. Inside the band both ends are found together, by Newton's method in
+two unknowns; where one end binds, and where the back-step is wider than the band, by roots inside brackets.
+
 Linkages that step back with every value of one unknown length have a back-step, a longest dwell and a flattest window.
 
 Without a momentary dwell in the range the back-step has a minimum value above 0 there. A wider band is filled by the
@@ -12,17 +15,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import unlike
-from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
+from gearlink.core.numerics.elementary import SCALARS, Elementary
+from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root, roots_on
 
 _TURN = 2.0 * math.pi
 _FIT = 1e-13
-_ROUGH = 1e-9
+_NEAR = 1e-9
+_LONGEST_OF_ENDS = 0.4  # step of both ends of a band [rad]
+REST, MOST_STEPS = 1e-8, 40  # of the ends [rad]: what the last step leaves is its square
 
 
 class ToleranceDwell(NamedTuple):
@@ -39,38 +46,88 @@ class ToleranceDwell(NamedTuple):
     output_angle: float
 
 
-class Valley(NamedTuple):
-    """Part of the turn around the least speed: output angle, its rate, and the crank angles [rad] that bound the parts.
+@dataclass(frozen=True)
+class Valley:
+    """Part of the turn around the least speed of one output; `Valleys` of the three-gear drive is that of many.
 
-    first, second : phi(1), phi(2), or the minimum speed's place twice; low, high : the maximum speed's before and after
-    mean : output revolutions per crank revolution, positive
+    Fields
+        course : the output, with angle(phi), speed(phi), and rates(phi, order): both and more derivatives
+        first, second : float [rad] - phi(1), phi(2), or the minimum speed's place twice
+        least, low, high : float [rad] - places of the minimum speed, and of the maximum speed before and after it
+        mean : float - output revolutions per crank revolution, positive
     """
 
-    angle: Callable[[float], float]
-    speed: Callable[[float], float]
-    first: float
-    second: float
-    low: float
-    high: float
-    mean: float
+    course: Any
+    first: Any
+    second: Any
+    least: Any
+    low: Any
+    high: Any
+    mean: Any
+    fn: ClassVar[Elementary] = SCALARS
 
-    def reach(self, level: float, left: float, right: float, rough: float = 0.0) -> float:
-        """Crank angle between two others where the output passes a level, to the last bit or `rough` [rad]."""
-        f_left, f_right = self.angle(left) - level, self.angle(right) - level
-        if f_left * f_right >= 0.0:
-            return left if abs(f_left) < abs(f_right) else right
-        ends = f_left, f_right
-        return bracketed_root(lambda phi: self.angle(phi) - level, left, right, tolerance=rough, ends=ends)
+    def angle(self, phi: Any) -> Any:
+        """Angle of the output [rad]."""
+        return self.course.angle(phi)
 
-    def before(self, level: float, rough: float = 0.0) -> float:
+    def speed(self, phi: Any) -> Any:
+        """Its speed ratio."""
+        return self.course.speed(phi)
+
+    @cached_property
+    def drop(self) -> Any:
+        """The back-step [rad], 0 without one."""
+        return self.fn.greatest(0.0, self.angle(self.first) - self.angle(self.second))
+
+    def before(self, level: Any) -> Any:
         """Crank angle where the output last passes a level before its standstills."""
-        beyond = level < self.angle(self.low)
-        return self.reach(level, *((self.second - _TURN, self.low) if beyond else (self.low, self.first)), rough)
+        beyond, where = level < self.angle(self.low), self.fn.where
+        return self.reach(level, where(beyond, self.second - _TURN, self.low), where(beyond, self.low, self.first))
 
-    def after(self, level: float, rough: float = 0.0) -> float:
+    def after(self, level: Any) -> Any:
         """Crank angle where the output first passes a level after its standstills."""
-        beyond = level > self.angle(self.high)
-        return self.reach(level, *((self.high, self.first + _TURN) if beyond else (self.second, self.high)), rough)
+        beyond, where = level > self.angle(self.high), self.fn.where
+        return self.reach(level, where(beyond, self.high, self.second), where(beyond, self.first + _TURN, self.high))
+
+    # What one output does otherwise than many
+
+    def reach(self, level: Any, left: Any, right: Any, sign: float = 1.0, start: Any = None) -> Any:
+        """Crank angle between two others where the output, rising (sign 1) or falling, passes a level, else an end."""
+        if sign * (self.angle(left) - level) >= 0.0:
+            return left
+        if sign * (self.angle(right) - level) <= 0.0:
+            return right
+
+        def above(phi: float) -> tuple[float, float]:
+            angle, speed = self.course.rates(phi, 1)
+            return sign * (angle - level), sign * speed
+
+        inside = start is not None and left < start < right
+        return newton_root(above, left, right, start if inside else 0.5 * (left + right))
+
+    def either(self, holds: Any, one: Callable[..., Any], other: Callable[..., Any], *given: Any) -> Any:
+        """What one function of a valley and the given finds where something holds, elsewhere the other."""
+        return (one if holds else other)(self, *given)
+
+    def settled(self, tolerance: Any) -> tuple[Any, Any, Any]:
+        """Both ends where the speed there is the same, and whether the steps to them rest."""
+        left = right = self.least
+        with suppress(ZeroDivisionError):
+            half = half_of_parabola(self, tolerance)
+            left, right = left - half, right + half
+            for _ in range(MOST_STEPS):
+                back, on = to_one_speed(self.course, left, right, tolerance, self.fn)
+                left, right = left + back, right + on
+                if abs(back) <= REST and abs(on) <= REST:
+                    return left, right, True
+        return left, right, False
+
+    def held(self, f: Callable[..., Any], most: Any, *given: Any) -> Any:
+        """Root between 0 and an end of a rising function of a valley, the place and the given; or the nearer end."""
+        ends = f(self, 0.0, *given), f(self, most, *given)
+        if ends[0] >= 0.0 or ends[1] <= 0.0:
+            return 0.0 if ends[0] >= 0.0 else most
+        return bracketed_root(lambda x: f(self, x, *given), 0.0, most, ends=ends)
 
 
 def least_band(valley: Valley, window: float) -> float:
@@ -93,7 +150,7 @@ def least_band(valley: Valley, window: float) -> float:
     first, last = valley.after(top) - window, valley.before(bottom)
 
     def gain(left: float) -> float:
-        return valley.speed(left + window) - valley.speed(left)
+        return float(valley.speed(left + window) - valley.speed(left))
 
     if first >= last or (most := gain(last)) <= 0.0:
         left = last
@@ -101,7 +158,7 @@ def least_band(valley: Valley, window: float) -> float:
         left = first
     else:
         left = bracketed_root(gain, first, last, ends=(least, most))
-    return 0.5 * max(valley.angle(left + window) - valley.angle(left), top - bottom)
+    return float(0.5 * max(valley.angle(left + window) - valley.angle(left), top - bottom))
 
 
 def band_of_window(valley: Valley, window: float) -> float:
@@ -141,7 +198,7 @@ def _of_one_level(valley: Valley, window: float, first: float, last: float) -> f
     """Start of a window, between two places, at whose ends the output stands alike."""
 
     def gain(left: float) -> float:
-        return valley.angle(left + window) - valley.angle(left)
+        return float(valley.angle(left + window) - valley.angle(left))
 
     ends = gain(first), gain(last)
     if valley.first == valley.second or ends[0] * ends[1] > 0.0:
@@ -149,33 +206,18 @@ def _of_one_level(valley: Valley, window: float, first: float, last: float) -> f
     return bracketed_root(gain, first, last, ends=ends)
 
 
-def longest_in_band(valley: Valley, tolerance: float, *, placed: bool = True) -> ToleranceDwell:
+def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
-
-    phi5(R) - phi5(L) = 2 tol  and  W(L) = W(R) >= 0,   both standstills between L and R;
-    with a back-step D > 2 tol instead  phi5(L) = phi5(R) = phi5(1) - 2 tol  or  phi5(2) + 2 tol, the longer
 
     Parameters
         valley : Valley - of an output with at most one back-step a revolution
         tolerance : float [rad] - 0 < tol < pi times the mean ratio
-        placed : bool - False where its length alone is wanted: it is at its maximum, so that a place to 1e-9 gives it
-            to 1e-18
     Returns
         dwell : ToleranceDwell [rad]
     Raises
         NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
     Notes
-        Bracketed roots inside a bracketed root; the angle rises outside of the standstills, and what the window leaves
-        of the turn has one maximum speed. Where W(L) = W(R) cannot hold with both standstills inside, the end that
-        binds is taken: of long windows with both ends beyond the maximum speed, too. At
-        tol = D/2 and small back-steps the dwell is one third longer than phi13, which uses one side of the band.
-    Example
-        >>> eased = Valley(lambda x: x - math.sin(x), lambda x: 1.0 - math.cos(x), 0.0, 0.0, -math.pi, math.pi, 1.0)
-        >>> round(longest_in_band(eased, math.pi / 2.0 - 1.0).crank_angle, 12)
-        3.14159265359
-
-    Source
-        own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
+        At tol = D/2 and small back-steps the dwell is one third longer than phi13, which uses one side of the band.
     """
     limit = math.pi * valley.mean
     if not 0.0 < tolerance < limit:
@@ -183,54 +225,93 @@ def longest_in_band(valley: Valley, tolerance: float, *, placed: bool = True) ->
             f"dwell tolerance: {unlike(math.degrees(tolerance), math.degrees(limit))} deg (above 0, below "
             f"{unlike(math.degrees(limit), math.degrees(tolerance))} deg, half of the output angle per revolution)"
         )
-    drop = max(0.0, valley.angle(valley.first) - valley.angle(valley.second))
-    # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.
-    if drop > 2.0 * tolerance * (1.0 + _FIT) + _FIT * limit:
-        left, right, middle = _around_one_extreme(valley, tolerance)
-    else:
-        left, right, middle = _around_both(valley, tolerance, drop, 0.0 if placed else _ROUGH)
+    left, right, middle, *_ = ends_in_band(valley, tolerance)
     start = left % _TURN % _TURN  # twice: a tiny negative angle is rounded up to a whole revolution by the first
     return ToleranceDwell(start, right - left, middle - valley.mean * (left - start))
 
 
-def _around_both(valley: Valley, tolerance: float, drop: float, rough: float) -> tuple[float, float, float]:
-    """Interval that holds both standstills; p is what the output rises from L to its place at phi(2)."""
-    bottom = valley.angle(valley.second)
-    spare = max(0.0, 2.0 * tolerance - drop)
-    top, near = bottom + drop, rough * math.sqrt(spare)  # beside a standstill places go with the root of the angle
+def ends_in_band(valley: Valley, tolerance: Any) -> tuple[Any, ...]:
+    """The longest interval within +- tol of one output, or of each of many: its ends, and the output's middle there.
 
-    def ends(p: float, near: float = 0.0) -> tuple[float, float]:
-        return valley.before(bottom - p, near), valley.after(top + spare - p, near)
+    Then whether another is as long, or roots do not settle; and whether the back-step is wider than the band.
 
-    def gain(p: float) -> float:
-        left, right = ends(p, near)
-        return valley.speed(right) - valley.speed(left)
+    phi5(R) - phi5(L) = 2 tol  and  W(L) = W(R) >= 0,   both standstills between L and R;
+    with a back-step D > 2 tol instead  phi5(L) = phi5(R) = phi5(1) - 2 tol  or  phi5(2) + 2 tol, the longer
 
-    if (first := gain(0.0)) <= 0.0:
-        p = 0.0
-    elif (last := gain(spare)) >= 0.0:
-        p = spare
-    else:
-        p = bracketed_root(gain, 0.0, spare, tolerance=rough * spare, ends=(first, last))
-    left, right = ends(p)
-    return left, right, bottom - p + tolerance
+    Notes
+        The angle rises outside of the standstills, and what the window leaves of the turn has one maximum speed. Where
+        W(L) = W(R) cannot hold with both standstills inside, the end that binds is taken: of long windows with both
+        ends beyond the maximum speed, too.
+
+    Source
+        own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
+    """
+    # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.
+    wide = valley.drop > 2.0 * tolerance * (1.0 + _FIT) + _FIT * math.pi * valley.mean
+    return *valley.either(wide, _around_one_extreme, _around_both, tolerance), wide
 
 
-def _around_one_extreme(valley: Valley, tolerance: float) -> tuple[float, float, float]:
-    """The longer of the intervals around the place of phi(1) and that of phi(2), for a back-step above 2 tol."""
-    top, bottom = valley.angle(valley.first), valley.angle(valley.second)
-    floor, ceiling = top - 2.0 * tolerance, bottom + 2.0 * tolerance
-    before = (
-        valley.reach(floor, valley.second - _TURN, valley.first),
-        valley.reach(floor, valley.first, valley.second),
-    )
-    after = (
-        valley.reach(ceiling, valley.first, valley.second),
-        valley.reach(ceiling, valley.second, valley.first + _TURN),
-    )
-    if before[1] - before[0] >= after[1] - after[0]:
-        return *before, floor + tolerance
-    return *after, ceiling - tolerance
+def _around_both(valley: Valley, tolerance: Any) -> tuple[Any, ...]:
+    """Intervals that hold both standstills: ends of one speed, or one end that binds."""
+    (left, right, inside), bottom = valley.settled(tolerance), valley.angle(valley.second)
+    inside = inside & (valley.low <= left) & (left <= valley.first) & (valley.second <= right) & (right <= valley.high)
+    inside = inside & (valley.angle(left) <= bottom) & (valley.angle(right) >= bottom + valley.drop)
+    return tuple(valley.either(inside, _as_found, _with_one_end, tolerance, left, right))
+
+
+def _as_found(valley: Valley, tolerance: Any, left: Any, right: Any) -> tuple[Any, ...]:
+    return left, right, valley.angle(left) + tolerance, left > right
+
+
+def half_of_parabola(valley: Valley, tolerance: Any) -> Any:
+    """Half of the interval whose speed is the parabola about its minimum: of a cubic, by Newton's method."""
+    fn = valley.fn
+    _, least, _, bend = valley.course.rates(valley.least, 3)
+    half = fn.sqrt(fn.greatest(-6.0 * least / bend, 0.0)) + fn.cbrt(6.0 * tolerance / bend)
+    for _ in range(4):
+        half = half - (least * half + bend * half**3 / 6.0 - tolerance) / (least + 0.5 * bend * half * half)
+    return fn.where(half > 0.0, fn.least(half, 0.5 * math.pi), 0.5 * math.pi)
+
+
+def to_one_speed(course: Any, left: Any, right: Any, tolerance: Any, fn: Elementary) -> tuple[Any, Any]:
+    """Newton's step to phi5(R) - phi5(L) = 2 tol, W(L) = W(R)."""
+    (a1, w1, s1), (a2, w2, s2) = course.rates(left, 2), course.rates(right, 2)
+    missing, faster, whole = a2 - a1 - 2.0 * tolerance, w2 - w1, w2 * s1 - w1 * s2
+    steps = (w2 * faster - s2 * missing) / whole, (w1 * faster - s1 * missing) / whole
+    back, on = (fn.least(fn.greatest(step, -_LONGEST_OF_ENDS), _LONGEST_OF_ENDS) for step in steps)
+    return back, on
+
+
+def _with_one_end(valley: Valley, tolerance: Any, *_: Any) -> tuple[Any, ...]:
+    """One end as far as it may be where the speeds at both cannot be equal; else a root inside brackets of how far the
+    output rises from L to its place at phi(2)."""
+    rise = valley.held(_slower, valley.fn.greatest(2.0 * tolerance - valley.drop, 0.0), tolerance)
+    left, right = _of_rise(valley, rise, tolerance)
+    return left, right, valley.angle(valley.second) - rise + tolerance, rise != rise
+
+
+def _slower(valley: Valley, rise: Any, tolerance: Any) -> Any:
+    left, right = _of_rise(valley, rise, tolerance)
+    return valley.speed(left) - valley.speed(right)
+
+
+def _of_rise(valley: Valley, rise: Any, tolerance: Any) -> tuple[Any, Any]:
+    level = valley.angle(valley.second) - rise
+    return valley.before(level), valley.after(level + 2.0 * tolerance)
+
+
+def _around_one_extreme(valley: Valley, tolerance: Any) -> tuple[Any, ...]:
+    """The longer of the intervals around phi(1) and phi(2), of back-steps above 2 tol."""
+    first, second, fn = valley.first, valley.second, valley.fn
+    found = []
+    for place, away, outside in ((first, -1.0, (second - _TURN, first)), (second, 1.0, (second, first + _TURN))):
+        angle, _, slope = valley.course.rates(place, 2)
+        level, spread = angle + away * 2.0 * tolerance, away * fn.sqrt(4.0 * tolerance / abs(slope))  # of the parabola
+        inner = valley.reach(level, first, second, -1.0, place - spread)
+        outer = valley.reach(level, *outside, 1.0, place + spread)
+        found.append((*((outer, inner) if away < 0.0 else (inner, outer)), level - away * tolerance))
+    gained = (found[0][1] - found[0][0]) - (found[1][1] - found[1][0])
+    return *(fn.where(gained >= 0.0, one, other) for one, other in zip(*found, strict=True)), abs(gained) <= _NEAR
 
 
 _NODES = 24
@@ -265,11 +346,11 @@ class AlwaysStepping:
     def step(self, length: float) -> float:
         """The back-step D [rad] of a length."""
         valley = self.valley(length)
-        return valley.angle(valley.first) - valley.angle(valley.second)
+        return float(valley.angle(valley.first) - valley.angle(valley.second))
 
     def window(self, length: float, tolerance: float) -> float:
         """The longest crank angle [rad] within +- a tolerance [rad] at a length."""
-        return longest_in_band(self.valley(length), tolerance, placed=False).crank_angle
+        return longest_in_band(self.valley(length), tolerance).crank_angle
 
     def ripple(self, length: float) -> float:
         """The window [rad] within the band that the back-step fills: all of a revolution that gains no more than it."""

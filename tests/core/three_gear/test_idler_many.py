@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.machines.three_gear import symmetric, symmetric_sweep
+from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.axis import Tried, smallest_idlers
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 
@@ -19,14 +19,14 @@ def of_dwell(degrees: float) -> Any:
     reached = 2.0 * math.pi * N / (N + 1.0) > math.radians(degrees) * (1.0 + 1e-9)
     n = N[reached]
     return symmetric.frame_ratio(
-        1.0 - n, symmetric_sweep.half_angle_for_dwell(n, np.full(n.shape, math.radians(degrees))), ARRAYS
+        1.0 - n, symmetric.half_angle_for_dwell(n, np.full(n.shape, math.radians(degrees)), ARRAYS), ARRAYS
     )
 
 
 def of_back_step(degrees: float) -> Any:
     n = N[math.pi * (N - 1.0) > math.radians(degrees) * (1.0 + 1e-9)]
     return symmetric.frame_ratio(
-        1.0 - n, symmetric_sweep.half_angle_for_back_step(n, np.full(n.shape, math.radians(degrees))), ARRAYS
+        1.0 - n, symmetric.half_angle_for_back_step(n, np.full(n.shape, math.radians(degrees)), ARRAYS), ARRAYS
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear import symmetric_sweep
+from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.momentary import (
     momentary_crank_angle,
     momentary_frame_length,
@@ -19,6 +19,7 @@ from gearlink.core.machines.three_gear.momentary import (
 from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric import dwell_angle
+from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from tests.oracles.three_gear_output import output_motion
 
@@ -75,7 +76,7 @@ def test_momentary_dwells_agree_with_the_scalar_forms():
 
 def test_dwell_angles_of_studies_agree_with_the_scalar_root():
     i3, phi12 = np.meshgrid(-np.geomspace(0.5, 12.0, 15), np.linspace(0.35, 3.1, 20))
-    found = symmetric_sweep.dwell_angle(1.0 - i3.ravel(), 0.5 * phi12.ravel())
+    found = 0.5 * phi12.ravel() + symmetric.regained(1.0 - i3.ravel(), 0.5 * phi12.ravel(), ARRAYS)
     exact = np.array([dwell_angle(float(r), float(p)) for r, p in zip(i3.flat, phi12.flat, strict=True)])
     assert np.max(np.abs(found / exact - 1.0)) < 1e-13
 

@@ -124,15 +124,6 @@ def test_ends_stand_at_equal_speed():
     assert output_speed(EX3, EX3_TRAIN, found.start + found.crank_angle) == pytest.approx(at_start, abs=1e-13)
 
 
-@pytest.mark.parametrize("degrees", [1e-6, 1e-3, 0.5, 5.0, 40.0])
-def test_the_length_alone_is_the_same(degrees):
-    """It is at its maximum: places to 1e-9 do not move it, whether the back-step fills the band or not."""
-    linkage, train = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
-    placed = tolerance_dwell(linkage, train, math.radians(degrees))
-    alone = tolerance_dwell(linkage, train, math.radians(degrees), placed=False)
-    assert alone.crank_angle == pytest.approx(placed.crank_angle, rel=0.0, abs=1e-14)
-
-
 def test_narrow_tolerance_takes_one_standstill_only():
     step = back_step(EX3, EX3_TRAIN)
     found = tolerance_dwell(EX3, EX3_TRAIN, 0.1 * step.angle)

@@ -1,17 +1,13 @@
-"""The symmetric family (I = 1) over arrays: its design charts, and the roots of many designs at once.
+"""Design charts of the symmetric family (I = 1).
 
-The scalar forms, and what each quantity means, stand in `gearlink.core.machines.three_gear.symmetric`. Arguments of
-charts broadcast; where a design does not exist, the curve of a dwell has a gap: not a number. The equation of the dwell
-stands here again, with derivatives: there it is an integral where h is small and has none, and one form for both takes
-a single design 1.2 to 1.4 times as long. Roots are Newton's inside a bracket; a design that rests is frozen, so that
-its last bit does not depend on its neighbours.
+The formulas, and what each quantity means, stand in `gearlink.core.machines.three_gear.symmetric`. Arguments broadcast;
+where a design does not exist, the curve of a dwell has a gap: not a number.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,14 +17,12 @@ from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.dwell import tolerance_dwell
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
-from gearlink.core.numerics.roots_sweep import newton_roots
 
 _SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `symmetric`
 FRAME_TOLERANCE = math.radians(0.5)
 """Tolerance of the chart over the frame."""
-_QUARTER = 0.5 * math.pi
 
 
 def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
@@ -66,8 +60,6 @@ def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) ->
         angle : array [rad]
     Raises
         NoSolution - for a value outside its range
-    Notes
-        As the scalar form: a series in tan(h) for small h, an addition theorem for larger; some ulp everywhere.
     Example
         >>> np.degrees(back_step_at_crank_angle([-1.0, -2.0], np.radians(120.0))).round(6).tolist()
         [43.573579, 60.0]
@@ -234,74 +226,3 @@ def _each(function: Callable[[float], float], values: ArrayLike) -> Reals:
             return math.nan
 
     return np.array([value(float(x)) for x in np.atleast_1d(np.asarray(values, dtype=float))])
-
-
-def _above(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals, Reals]:
-    """How far the output at 270 deg + y stands above its place at 270 deg - h, and its derivatives by y and by h.
-
-    h + y - n [asin(k sin(y)) + asin(k sin(h))]
-
-    Source
-        thesis (4-16), as `symmetric.dwell_angle`
-    """
-    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
-    rest = (n * n - 1.0) * cos_h
-    root, whole = np.sqrt(rest * cos_h + cos_y * cos_y), rest * cos_h + 1.0
-    value = h + y - n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h))
-    return value, 1.0 - n * cos_y / root, 1.0 - n * n / whole - n * sin_y * rest * sin_h / (root * whole)
-
-
-def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
-    """h = phi12/2 [rad] whose dwell angle is phi13: y = phi13 - h, as `symmetric.crank_angle_for_dwell`."""
-
-    def missing(h: Reals, n: Reals, phi13: Reals) -> tuple[Reals, Reals]:
-        value, by_y, by_h = _above(phi13 - h, n, h)
-        return -value, by_y - by_h
-
-    return newton_roots(missing, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
-
-
-def dwell_angle(n: Reals, h: Reals) -> Reals:
-    """phi13 [rad] of a back-step over 2 h: the equation solved for y, as `symmetric.dwell_angle`."""
-    limit = 2.0 * math.pi * n / (n + 1.0)
-    high = np.minimum(3.0 * h, limit - h)
-    # At y = h the value is smallest: beyond it it rises, and the root lies at about 2 h.
-    return h + newton_roots(lambda *given: _above(*given)[:2], h, high, np.minimum(2.0 * h, high), n, h)
-
-
-def half_angle_for_window(n: Reals, window: Reals) -> Reals:
-    """h [rad] of the back-step whose band the output touches twice over a window [rad]: y = window/2 is given, as
-    `symmetric.crank_angle_for_window`."""
-    y = 0.5 * window
-
-    def missing(h: Reals, n: Reals, y: Reals) -> tuple[Reals, Reals]:
-        value, _, by_h = _above(y, n, h)
-        return -value, -by_h
-
-    return newton_roots(missing, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
-
-
-def longest_window(n: Reals, h: Reals) -> Reals:
-    """2 phi13 - phi12 [rad] of a back-step over 2 h: the window over which the output stays within it."""
-    return 2.0 * (dwell_angle(n, h) - h)
-
-
-def back_step(n: Reals, h: Reals) -> Reals:
-    """The back-step [rad] over 2 h (thesis (4-19))."""
-    return np.asarray(2.0 * (n * np.arctan2(np.sin(h), n * np.cos(h)) - h))
-
-
-def half_angle_for_back_step(n: Reals, angle: Reals) -> Reals:
-    """h [rad] whose back-step is `angle` [rad], as `symmetric.crank_angle_for_back_step`."""
-    start = np.minimum(np.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
-
-    def missing(h: Reals, n: Reals, angle: Reals) -> tuple[Reals, Reals]:
-        whole = 1.0 + (n * n - 1.0) * np.cos(h) ** 2
-        return back_step(n, h) - angle, 2.0 * (n * n - 1.0) * np.sin(h) ** 2 / whole
-
-    return newton_roots(missing, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
-
-
-def in_range(value: Reals, low: Any, high: Any) -> Mask:
-    """Where low < value < high."""
-    return np.asarray((low < value) & (value < high))
