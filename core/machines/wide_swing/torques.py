@@ -382,6 +382,10 @@ FARTHEST = 0.15
 """Part of the stroke after mid-swing up to which the formula, of leading order, is taken."""
 
 
+_ABOVE = 1.0 + 2.0**-48
+"""Past the rounding of a cube and its root."""
+
+
 def crossing_time(free: float, clearance: float, growth: float) -> float:
     """Time from mid-swing to the blow on the other flank.
 
@@ -401,9 +405,8 @@ def crossing_time(free: float, clearance: float, growth: float) -> float:
         own derivation, to leading order in the time
     """
     volume = 6.0 * clearance / growth
-    least = 2.0 * free
-    most = least + float(np.cbrt(volume))
-    return least if most <= least else bracketed_root(lambda t: (t - least) * (t + free) ** 2 - volume, least, most)
+    most = float(np.cbrt(volume)) * _ABOVE  # reached by itself where the wall ends at mid-swing
+    return 2.0 * free + bracketed_root(lambda late: late * (late + 3.0 * free) ** 2 - volume, 0.0, most)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from sweeps import examples
@@ -87,6 +87,7 @@ def test_coefficient_over_the_speed() -> None:
 
 
 @given(free=st.floats(0.0, 0.1), clearance=st.floats(0.0, 1.0), growth=st.floats(1.0, 1e6))
+@example(free=0.0, clearance=1.0, growth=7.0)  # the cube root of 6/7 cubed is less than 6/7
 @examples(50)
 def test_crossing_solves_its_cubic(free: float, clearance: float, growth: float) -> None:
     time = crossing_time(free, clearance, growth)
