@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Report
     from gearlink.core.studies.study.faults import WrongStudy
 
+_LISTED = 12
+
 
 def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
     """The text of a design file as located data, and its kind."""
@@ -186,11 +188,11 @@ def exit_status(report: Report, *, strict: bool = False) -> int:
 
 
 def _unknown_name(error: UnknownName) -> Diagnostic:
-    from difflib import get_close_matches
+    from gearlink.core.base.nearest import near_quantities
 
-    by_letters = {name.lower(): name for name in error.known}  # pin_a.peak is nearest to pin_A.peak
-    near = [by_letters[name] for name in get_close_matches(error.name.lower(), by_letters, n=3, cutoff=0.5)]
-    plain = [name for name in error.known if "." not in name]  # those of each mesh are many, and the same again
-    listed = f"known: {', '.join(plain)}" + (", and those of a mesh as MESH.NAME" if plain != [*error.known] else "")
+    near = near_quantities(error.name, error.known)
+    shown = _LISTED if error.what == "quantity" else len(error.known)
+    first, more = error.known[:shown], len(error.known) - shown
+    listed = f"known: {', '.join(first)}" + (f", and {more} more, which --all shows" if more > 0 else "")
     remedy = f"nearest: {', '.join(near)}" if near else listed
     return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -146,3 +147,16 @@ def test_choices_in_capitals_are_recognised(gearlink: Any, tmp_path: Path) -> No
 def test_quantities_with_capitals_are_recognised(gearlink: Any, designs: Path) -> None:
     ended = gearlink("loads", designs / "loaded_feed.yaml", "--quantity", "pin_a.peak")
     assert "nearest: pin_A.peak, " in ended.err
+
+
+@pytest.mark.parametrize("asked", ["pitting_safety", "SH", "S_H", "safty_piting", "pitting"])
+def test_quantities_are_found_by_symbol_and_by_their_words_in_any_order(
+    gearlink: Any, designs: Path, asked: str
+) -> None:
+    ended = gearlink("gear", designs / "gear_pair.yaml", "--quantity", asked)
+    assert re.search(r"nearest: .*safety_pitting", ended.err)
+
+
+def test_of_many_quantities_the_first_are_listed(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("gear", designs / "gear_pair.yaml", "--quantity", "xyzzy")
+    assert re.search(r"help: known: (\w+, ){12}and \d+ more, which --all shows", ended.err)

@@ -9,7 +9,6 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cached_property
 from typing import Any
 
@@ -21,6 +20,7 @@ from gearlink.core.base.design_axis import Single
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.nearest import near_quantities
 from gearlink.core.base.report import Check
 from gearlink.core.base.spec_paths import put
 
@@ -218,8 +218,7 @@ class Base:
     def nearest(self, name: str, known: Iterable[str]) -> str:
         """The nearest known names, in words."""
         known = sorted(known)
-        by_letters = {each.lower(): each for each in known}
-        near = [by_letters[each] for each in get_close_matches(name[:100].lower(), by_letters, n=3, cutoff=0.5)]
+        near = near_quantities(name[:100], known)
         shown = self.kind.design_class(self.command).outlines[self.command].quantities
         own = [name for name in shown if name in known] or known
         return f"nearest: {', '.join(near)}" if near else f"known: {', '.join(own[:12])}"
