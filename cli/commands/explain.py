@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, listed
-from gearlink.cli.texts.schema import index, kind_schema, known_keys, spec_keys
+from gearlink.cli.texts.schema import index, inner_keys, kind_schema, known_keys, spec_keys
 from gearlink.core.base.errors import named
 from gearlink.core.base.nearest import near_names
 
@@ -138,7 +138,59 @@ def find(subject: str) -> list[Topic]:
     found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
     found += _program_names(subject)
     found += [_meaning(subject, meaning) for meaning in meanings_of(subject)]
-    return found or list(_told_of(subject)) or list(_turned_round(subject))
+    return found or list(_told_of(subject)) or list(_turned_round(subject)) or [*_events(subject), *_inner(subject)]
+
+
+def _events(subject: str) -> Iterator[Topic]:
+    """What the lines of `require` of a machine name: runs, their ends, extremes."""
+    from gearlink.core.machines.machine.relations import EXTREMES, RUNS
+
+    name = subject.lower().replace(" ", "_").replace("-", "_")
+    run, _, end = name.rpartition("_")
+    if run in RUNS and end in ("start", "end"):
+        title, more = f"event of a machine: {end} of the {run} of a member", f"{name}[2]: of its second {run}"
+    elif name in EXTREMES:
+        title, more = f"event of a machine: where a member has its {name.replace('_', ' of ')}", ""
+        title = re.sub(r"(velocity|acceleration) of (\w+)", r"\2 \1", title)
+    else:
+        return
+    told = {"Written": f"MEMBER.{name}, in the lines of require: feed.{name} before 180", "Of several": more}
+    told |= {"Kinds": "machine", "See also": "`gearlink new machine`"}
+    yield Topic("event", name, title, {label: words for label, words in told.items() if words})
+
+
+def _inner(subject: str) -> Iterator[Topic]:
+    """Keys of elements and of named entries by their last word, and keys that take a word as their value."""
+
+    def spelled(name: str) -> str:
+        return re.sub(r"[\s-]", "_", name.lower())
+
+    asked = spelled(subject)
+    for key in inner_keys():
+        told = {"Unit": key.unit, "Values": ", ".join(key.choices), "Kinds": ", ".join(key.kinds)}
+        told = {label: words for label, words in told.items() if words}
+        last = key.path.rpartition(".")[2]
+        if asked in (spelled(last), spelled(key.path)):
+            yield Topic("key", key.path, f"key of a design file: {key.words or 'says what its section is'}", told)
+        elif taken := [each for each in key.choices if spelled(each) == asked]:
+            yield Topic(
+                "value", taken[0], f"value of the key {key.path}" + (f": {key.words}" if key.words else ""), told
+            )
+
+
+def mentioned(subject: str, most: int = 4) -> list[str]:
+    """Names in whose texts all words of a subject stand, the shortest texts first."""
+    from gearlink.cli.glossary import glossary
+    from gearlink.cli.texts.codes import explanations
+    from gearlink.core.base.nomenclature import TERMS
+
+    texts = {name: term.definition for name, term in glossary().items()}
+    texts |= {name: entry.words for name, entry in TERMS.items()} | COLUMNS
+    texts |= {key.path: key.words for key in inner_keys()}
+    texts |= {code: f"{text.title} {text.what}" for code, text in explanations().items()}
+    asked = [re.compile(rf"\b{re.escape(word.removesuffix('s'))}s?\b") for word in subject.lower().split()]
+    found = [(len(text), name) for name, text in texts.items() if all(word.search(text.lower()) for word in asked)]
+    return list(dict.fromkeys(name for _, name in sorted(found)))[:most]
 
 
 def _turned_round(subject: str) -> Iterator[Topic]:
@@ -468,7 +520,11 @@ def _unknown(subject: str, format: Format) -> int:
     everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
     known = [*(name.rpartition(".")[2] for name in everything), *everything, *term_names()]
     near = near_names(subject, {folded(name): name for name in reversed(known)}.values())
-    remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes, `gearlink new` the kinds"
+    told = [] if near else mentioned(subject)
+    lists = "`gearlink explain` lists the codes, `gearlink new` the kinds"
+    remedy = (
+        f"nearest: {', '.join(near)}" if near else f"it stands in the texts of {', '.join(told)}" if told else lists
+    )
     wrong = Diagnostic("GL115", f"nothing is named {named(subject)}", file="<command line>", key=subject, help=remedy)
     show_errors([wrong], Options(format=format))
     return ExitCode.WRONG_INPUT

@@ -249,3 +249,75 @@ def known_keys(last: str = "") -> list[tuple[SpecKey, list[str]]]:
             if key.path != "kind":
                 found.setdefault((key.path, key.words, key.range), (key, []))[1].append(kind.name)
     return list(found.values())
+
+
+@dataclass(frozen=True, slots=True)
+class InnerKey:
+    """A key of a design file, also of elements of lists, `motion[].law`, and of entries with names, `sources.NAME.fit`.
+
+    Fields
+        path : str
+        words : str - meaning; empty where nothing is said
+        unit : str - empty: none
+        choices : the words that it takes
+        kinds : those that have it
+    """
+
+    path: str
+    words: str
+    unit: str
+    choices: tuple[str, ...]
+    kinds: tuple[str, ...]
+
+
+@cache
+def inner_keys() -> tuple[InnerKey, ...]:
+    """Every key of every kind, each once."""
+    from gearlink.core.base.kinds import FILES
+
+    found: dict[tuple[str, str], tuple[Node, dict[str, None], dict[str, None]]] = {}
+    for kind in FILES.values():
+        schema = kind_schema(kind)
+        for path, node in _deep(schema, schema["definitions"], "", frozenset()):
+            _, choices, kinds = found.setdefault((path, node.get("description", "")), (node, {}, {}))
+            choices |= dict.fromkeys(_choices(node))
+            kinds[kind.name] = None
+    return tuple(
+        InnerKey(path, words.removesuffix(f" [{node.get('unit')}]"), str(node.get("unit", "")).strip("1"),
+                 tuple(choices), tuple(kinds))
+        for (path, words), (node, choices, kinds) in found.items()
+    )  # fmt: skip
+
+
+def _deep(node: Node, definitions: Node, path: str, above: frozenset[str]) -> Iterator[tuple[str, Node]]:
+    """Paths and nodes of all keys below a node; a definition within itself is left out."""
+    if "$ref" in node:
+        name = str(node["$ref"]).rpartition("/")[2]
+        if name not in above:
+            yield from _deep(definitions[name], definitions, path, above | {name})
+    for key, inner in node.get("properties", {}).items():
+        if "aliasOf" not in inner:
+            own = f"{path}.{key}".lstrip(".")
+            yield own, inner
+            yield from _deep(inner, definitions, own, above)
+    for inner in _elements(node):
+        yield from _deep(inner, definitions, f"{path}[]", above)
+    named = node.get("additionalProperties")
+    if isinstance(named, dict):
+        yield from _deep(named, definitions, f"{path}.NAME", above)
+    for combination in ("allOf", "anyOf", "oneOf"):
+        for part in node.get(combination, ()):
+            yield from _deep(part, definitions, path, above)
+
+
+def _elements(node: Node) -> list[Node]:
+    items = node.get("items", ())
+    return [items] if isinstance(items, dict) else list(items) + list(node.get("prefixItems", ()))
+
+
+def _choices(node: Node) -> Iterator[str]:
+    """The words that a node takes, or its alternatives, or elements."""
+    values = [node["const"]] if "const" in node else node.get("enum", ())
+    yield from (value for value in values if isinstance(value, str))
+    for part in (*node.get("anyOf", ()), *node.get("oneOf", ()), *_elements(node)):
+        yield from _choices(part)

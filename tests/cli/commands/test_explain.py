@@ -11,8 +11,9 @@ import pytest
 from factory import DESIGNS, design, each_kind, worked
 from sweeps import mostly_slow
 
-from gearlink.cli.commands.explain import FORMULAS, column_words, names
+from gearlink.cli.commands.explain import FORMULAS, column_words, find, names
 from gearlink.cli.texts.codes import explanations
+from gearlink.cli.texts.schema import inner_keys
 from gearlink.core.base.codes import rules
 from gearlink.core.base.kinds import FILES as KINDS
 from gearlink.core.base.nomenclature import TERMS
@@ -252,7 +253,7 @@ def test_nearest_of_keys_and_symbols(gearlink: Any, wrong: str, near: str) -> No
 
 
 @pytest.mark.quick(1)
-@pytest.mark.parametrize("word", ["envelope", "space", "lazy tongs", "teapot", "hovercraft"])
+@pytest.mark.parametrize("word", ["envelope", "lazy tongs", "teapot", "hovercraft"])
 def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
     """Names that share some letters with it are no help."""
     ended = gearlink("explain", word)
@@ -276,6 +277,35 @@ def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
 )
 def test_a_part_of_a_name_and_a_slip_are_near(gearlink: Any, word: str, near: str) -> None:
     assert f"nearest: {near}" in gearlink("explain", word).err
+
+
+@pytest.mark.parametrize(
+    ("name", "about", "words"),
+    [
+        ("rise_end", "event", "end of the rise of a member"),
+        ("dwell start", "event", "start of the dwell of a member"),
+        ("velocity_maximum", "event", "where a member has its maximum velocity"),
+        ("osculating", "value", "value of the key rod.rule"),
+        ("translating-flat", "value", "follower.type"),
+        ("inflection", "key", "cams.NAME.motion[].law.inflection"),
+        ("grades", "key", "IT grade that may be chosen"),
+        ("Whitworth", "term", "more time for one stroke"),
+        ("profile error", "term", "cam's profile as manufactured"),
+    ],
+)
+def test_events_values_and_keys_of_entries_are_known(name: str, about: str, words: str) -> None:
+    assert [each for each in find(name) if each.about == about and words in f"{each.name} {each.title}"]
+
+
+@pytest.mark.slow
+def test_every_key_and_every_word_that_a_key_takes_is_explained() -> None:
+    words = {word for key in inner_keys() for word in (key.path.rpartition(".")[2].removesuffix("[]"), *key.choices)}
+    assert [word for word in sorted(words - {"kind", "NAME"}) if not find(word)] == []
+
+
+def test_what_texts_say_is_found_in_them(gearlink: Any) -> None:
+    """No name has this word, nor a spelling near it."""
+    assert "stands in the texts of root_radius" in gearlink("explain", "space").err
 
 
 @pytest.mark.parametrize("width", [60, 80, 100])
