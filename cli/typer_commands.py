@@ -304,9 +304,9 @@ def _sheet(
         PlotFormat | None, typer.Option("--format", "-f", help="the same as --plot-format")
     ] = None,
 ) -> None:
-    """Write further sheets of a design: motion of every output, velocities and accelerations, timing, drawings of cams.
+    """Write further sheets of a design: motion of every output, vectors, timing, drawings of cams and gears.
 
-    A drawing of a cam whose check fails is stamped, exit status 1.
+    A drawing of a design in which a check fails is stamped, exit status 1.
 
     Example: gearlink sheet press.yaml drawing --scale 1 --format pdf
     """

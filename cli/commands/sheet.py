@@ -1,4 +1,4 @@
-"""`gearlink sheet`: further sheets of a design: motion of every output, timing, pressure angles, drawings of cams."""
+"""`gearlink sheet`: further sheets of a design: motion, timing, pressure angles, drawings of cams and gears."""
 
 from __future__ import annotations
 
@@ -105,11 +105,11 @@ def _require_vectors(asked: Asked, at: Sequence[float], chosen: Sequence[str], d
 
 
 def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[str]:
-    """The sheets asked for, each once; `drawing` is that of every cam."""
+    """The sheets asked for, each once; `drawing` is that of every cam and gear."""
     chosen: list[str] = []
     kind = spec.kind
     for name in names or tuple(made):
-        found = [sheet for sheet in made if sheet == name or sheet.rpartition("-")[0] == name]
+        found = [sheet for sheet in made if sheet == name or sheet.partition("-")[0] == name]
         if not found:
             known = f"it has {', '.join(made)}" if made else f"it has none; {_who_has()}"
             message = f"this {kind} has no sheet named {named(name)}; {known}"
@@ -117,7 +117,7 @@ def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[
         chosen += found
     if not chosen:
         help_ = f"its sheet is drawn by `gearlink {spec.commands()[0]} {for_shell(source)} --plot`; {_who_has()}"
-        message = f"`sheet` draws motion, timing, pressure angles and cams, of which this {kind} has none"
+        message = f"`sheet` draws motion, timing, pressure angles, cams and gears, of which this {kind} has none"
         raise DesignFileError([Diagnostic("GL113", message, "<command line>", key="kind", help=help_)])
     return list(dict.fromkeys(chosen))
 
@@ -156,7 +156,7 @@ Makers = dict[str, Callable[[], "Figure"]]
 
 def kinds() -> tuple[str, ...]:
     """The kinds whose designs have sheets."""
-    return tuple(kind.name for kind in KINDS.values() if kind.all_sheets)
+    return tuple(kind.name for kind in KINDS.values() if kind.all_sheets or kind.rexs)
 
 
 def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale | None:
@@ -185,13 +185,20 @@ def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale 
 
 
 def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (), show: str = "") -> Makers:
-    """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`), true to a scale.
+    """The sheets that a design has, by name: a drawing for each cam (`drawing-1`, true to a scale) and gear.
 
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
     from gearlink.cli.views.figures import loads, tolerance
-    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size, vector_sheet
+    from gearlink.cli.views.figures.sheets import (
+        cam_sheets,
+        motion_sheet,
+        part_drawing,
+        timing_sheet,
+        true_size,
+        vector_sheet,
+    )
 
     found: Makers = {}
     if motion_sheet.courses(design):
@@ -216,11 +223,10 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         found["pressure"] = lambda: cam_sheets.pressure(design)
         found["contact"] = lambda: motion_sheet.contact(design)
     if scale is not None:
-        from gearlink.cli.views.figures.sheets import true_size
-
         for i in range(len(cams)):
             found[f"drawing-{i + 1}"] = lambda i=i: true_size.drawing(design, i, scale)  # type: ignore[misc]
         return found
     for i in range(len(cams)):
         found[f"drawing-{i + 1}"] = lambda i=i: true_size.workshop_drawing(design, i)  # type: ignore[misc]
+    found.update((f"drawing-{name}", make) for name, make in part_drawing.drawn(design).items())
     return found

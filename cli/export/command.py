@@ -15,7 +15,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from itertools import chain, repeat
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gearlink.cli.evaluate import (
     checks_of,
@@ -39,12 +39,10 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.core.base.errors import GearlinkError, named
+from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.wording import first_of
 from gearlink.core.version import VERSION
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def run_export(source: str, asked: Export) -> int:
@@ -220,10 +218,6 @@ def _counted(contour: Contour) -> str:
     return f"{contour.points} points ({each})" if len(counts) > 1 else f"{contour.points} points"
 
 
-_SHARE = 0.7
-"""Of a page's height."""
-
-
 class NoContourFile(GearlinkError):
     """The contour is no body."""
 
@@ -238,27 +232,12 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
     design.require_two_gears("a blocking contour")
     points = sum(map(len, design.contour.points.values())) if form in (FileFormat.SVG, FileFormat.CSV) else 0
     if form is FileFormat.SVG:
-        return _svg(design), f"{points} points of {len(design.contour.lines)} lines"
+        return load("cli.views.figures.gears:contour_svg")(
+            design
+        ), f"{points} points of {len(design.contour.lines)} lines"
     if form is FileFormat.CSV:
         return _csv(design), f"{points} points of {len(design.contour.lines)} lines"
     raise NoContourFile(f"the blocking contour is no profile for {form}\ngive --as svg or --as csv")
-
-
-def _svg(design: Any) -> bytes:
-    from gearlink.cli.views.figures.drawing import panels
-    from gearlink.cli.views.figures.drawing.placing import settled
-    from gearlink.cli.views.figures.gears import contour_plot
-    from gearlink.cli.views.figures.write import save
-
-    def made() -> Figure:
-        figure = panels.page(design.spec.name, _SHARE)
-        grid = figure.add_gridspec(2, 1, height_ratios=(1.0, 0.12))
-        contour_plot(figure.add_subplot(grid[0]), figure.add_subplot(grid[1]), design.contour)
-        return settled(figure)
-
-    stream = io.BytesIO()
-    save(made, design.spec.name, stream, "svg")
-    return stream.getvalue()
 
 
 def _csv(design: Any) -> bytes:

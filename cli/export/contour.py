@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -58,6 +58,7 @@ class Part:
         twist : float [rad/mm] - how far the section turns along the axis; above 0 with right-hand teeth
         slant : float - how far the section moves along x on its way along the axis: the teeth of a helical rack
         rim : float [mm] - above 0: the body lies between the profile and this circle
+        lines : gives the lines of a gear's table on a drawing: item, symbol, value, unit
     """
 
     name: str
@@ -73,6 +74,7 @@ class Part:
     twist: float = 0.0
     slant: float = 0.0
     rim: float = 0.0
+    lines: Callable[[], list[tuple[str, str, Any, str]]] | None = None
 
 
 @dataclass(frozen=True)

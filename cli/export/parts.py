@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,8 @@ from gearlink.core.mechanism.vectors import place_of, rates_of
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.checks import undercut_checks
 from gearlink.core.parts.cams.disc_cam import DiscCam
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.drawing import drawing_table, lines_of, rack_drawing
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.rack_profile import RackProfile, straight
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
@@ -70,7 +73,7 @@ def press(design: Any) -> Makers:
         found |= gear_pair(design, "input_gears")
     if design.spec.cylinder.gears is not None:
         data, titles = design.teeth.cylinder, ("gear 3, on MN", "gear 4, on the cylinder")
-        found |= of_mesh(data.pair, ("gear3", "gear4"), titles, "cylinder.gears", widths_of=lambda: data.face_width)
+        found |= of_mesh(data.pair, ("gear3", "gear4"), titles, "cylinder.gears", data_of=lambda: data)
     if design.spec.bed.pinion is not None:
         mesh, (lower, upper) = design.teeth.pinion, design.teeth.rack_teeth
         found |= on_rack(mesh, ("pinion", "lower_rack"), ("pinion", "lower rack"), "bed.pinion", lower)
@@ -94,8 +97,6 @@ def gripper(design: Any) -> Makers:
 
 def follower_cam(design: Any) -> Makers:
     """The cam of a follower, or both walls of its groove; return cam and cutter path where the file has them."""
-    from dataclasses import replace
-
     cams, cutter = design.cams, design.spec.cam.cutter_radius
     if design.spec.is_flat:
         return {"main_cam": lambda: flat_cam("main_cam", cams.flat)}
@@ -223,20 +224,27 @@ def wide_swing(design: Any) -> Makers:
 def gear_pair(design: Any, key: str = "") -> Makers:
     """Both gears, or gear 1 and the rack."""
     data = design.gear_data if design.kind == "flatbed-press" else design.data
-    widths, rim = data.face_width, data.rims[1]
+    rim = data.rims[1]
     if rim is not None:
         rim += abs(data.pair.root_radius[1])
     titles = ("gear 1", "gear 2")
     hands = pair_hands(design)
-    found = of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, widths_of=lambda: widths, rim=rim, hands=hands)
-    return {"gear1": found["gear1"], "rack": lambda: _rack(design)} if getattr(design.spec, "rack", False) else found
+    found = of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, data_of=lambda: data, rim=rim, hands=hands)
+    if not getattr(design.spec, "rack", False):
+        return found
+    lines = partial(_rack_lines, design.rack, 0, hands)
+    return {"gear1": lambda: replace(found["gear1"](), lines=lines), "rack": lambda: _rack(design)}
 
 
 def _rack(design: Any) -> Part:
 
-    width = design.data.face_width[1] if design.data.face_width else None
-    hand = pair_hands(design)[1]
-    return rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width, hand)
+    width, hands = design.data.face_width[1] if design.data.face_width else None, pair_hands(design)
+    made = rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width, hands[1])
+    return replace(made, lines=partial(_rack_lines, design.rack, 1, hands))
+
+
+def _rack_lines(rack: RackMesh, number: int, hands: tuple[str, str]) -> list[Any]:
+    return lines_of(rack_drawing(rack, _told(rack.pair, hands)), number)
 
 
 def slider_racks(design: Any) -> Makers:
@@ -262,12 +270,14 @@ def on_rack(mesh: Any, names: tuple[str, str], titles: tuple[str, str], key: str
     def pinion() -> Part:
 
         with at_key(key):
-            return gear_of(mesh.pair, 0, names[0], titles[0], widths[0], "right")
+            made = gear_of(mesh.pair, 0, names[0], titles[0], widths[0], "right")
+        return replace(made, lines=partial(_rack_lines, mesh, 0, ("right", "left")))
 
     def rack() -> Part:
 
         with at_key(key):
-            return rack_of(mesh, teeth, back, names[1], titles[1], widths[1], "left")
+            made = rack_of(mesh, teeth, back, names[1], titles[1], widths[1], "left")
+        return replace(made, lines=partial(_rack_lines, mesh, 1, ("right", "left")))
 
     return {names[0]: pinion, names[1]: rack}
 
@@ -293,42 +303,74 @@ def three_gears(design: Any) -> Makers:
 
     def of(label: str, one: str, other: str) -> Makers:
         words = (titles[one], titles[other])
-        widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
-        return of_mesh(design.meshes[label], (one, other), words, "gears", widths_of=widths, rim=rim, hands=hands)
+        hands, rim = train_hands(design, label), design.outer_rim(label)
+        data = partial(_data_of, design, label)
+        return of_mesh(design.meshes[label], (one, other), words, "gears", data_of=data, rim=rim, hands=hands)
 
     first = of("crank_idler", *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
     second = of("idler_output", "gear3", "gear5")
-    idler = second if design.crank_teeth < 0 else first
-    return {"gear1": first["gear1"], "gear3": idler["gear3"], "gear5": second["gear5"]}
+    one, other = (second, first) if design.crank_teeth < 0 else (first, second)
+
+    def idler() -> Part:
+        made, more = one["gear3"](), other["gear3"]().lines
+        assert made.lines is not None
+        assert more is not None
+        lines, mate = made.lines, more
+        return replace(made, lines=lambda: [*lines(), *(line for line in mate() if line[0] in _OF_MATE)])
+
+    return {"gear1": first["gear1"], "gear3": idler, "gear5": second["gear5"]}
+
+
+_OF_MATE = ("teeth of the mating gear", "centre distance", "its allowance, plus and minus")
+"""Lines of a gear's table that it has for each of its mates."""
 
 
 def two_gears(design: Any) -> Makers:
     """The coupler's gear and the output."""
     titles, hands = ("gear 2, on the coupler", "gear 5, the output"), train_hands(design)
     rim = design.outer_rim()
-    return of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
+    data = partial(_data_of, design)
+    return of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", data_of=data, rim=rim, hands=hands)
 
 
 def hypocycloid(design: Any) -> Makers:
     """Planet and ring."""
     titles, hands = ("planet", "ring gear, fixed"), train_hands(design)
     rim = design.outer_rim()
-    return of_mesh(design.mesh, ("planet", "ring"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
+    data = partial(_data_of, design)
+    return of_mesh(design.mesh, ("planet", "ring"), titles, "gears", data_of=data, rim=rim, hands=hands)
 
 
 def mutilated(design: Any) -> Makers:
     """The wheel as it is drawn, without its locking arcs, which are no result of the design; the driven gear."""
     hands = train_hands(design)
     titles = ("", "gear 2, driven")
-    made = of_mesh(design.mesh, ("", "gear2"), titles, "gears", widths_of=design.widths_of, hands=hands)
+    data_of = partial(_data_of, design)
+    made = of_mesh(design.mesh, ("", "gear2"), titles, "gears", data_of=data_of, hands=hands)
 
     def wheel() -> Part:
 
         with at_key("gears"):
             widths = design.widths_of()
-            return wheel_of(design, widths[0] if widths else None, hands[0])
+            found = wheel_of(design, widths[0] if widths else None, hands[0])
+        return replace(found, lines=partial(_lines, data_of, 0, _told(design.mesh, hands)))
 
     return {"wheel": wheel, "gear2": made["gear2"]}
+
+
+def _data_of(design: Any, label: str = "") -> GearData:
+    """What a drawing says of a mesh inside a machine."""
+    found: GearData = design.mesh_data[label]
+    return found
+
+
+def _lines(data_of: Callable[[], GearData], number: int, hands: tuple[str, str] | None) -> list[Any]:
+    return lines_of(drawing_table(data_of(), hands), number)
+
+
+def _told(pair: Any, hands: tuple[str, str]) -> tuple[str, str] | None:
+    """Hands of helix, of helical teeth."""
+    return hands if pair.helix_angle else None
 
 
 def five_bar(design: Any) -> Makers:
@@ -338,8 +380,8 @@ def five_bar(design: Any) -> Makers:
         names = label.split("_") if label else _five_bar_gears(design, mesh)
         parts = (f"{names[0]}_gear", f"{names[1]}_gear")
         titles = (f"{names[0]} gear", f"{names[1]} gear")
-        widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
-        found |= of_mesh(mesh, parts, titles, "gears", widths_of=widths, rim=rim, hands=hands)
+        hands, rim, data = train_hands(design, label), design.outer_rim(label), partial(_data_of, design, label)
+        found |= of_mesh(mesh, parts, titles, "gears", data_of=data, rim=rim, hands=hands)
     return found | ({f"{PATH}M": partial(_path, design, "M")} if design.is_path else {})
 
 
@@ -371,21 +413,24 @@ def of_mesh(
     titles: tuple[str, str],
     key: str,
     gears: Any = None,
-    widths_of: Callable[[], tuple[float, float] | None] = lambda: None,
+    data_of: Callable[[], GearData] | None = None,
     rim: float | None = None,
     hands: tuple[str, str] = ("right", "left"),
 ) -> Makers:
     """Both gears of a mesh; `gears` is the section of the file that may name the rim of a ring, or `rim` is it."""
+    data = data_of or (lambda: GearData(pair=mesh))
 
     def gear(number: int) -> Part:
 
         with at_key(key):
-            widths = widths_of()
+            widths = data().face_width
             width = widths[number] if widths else None
             if number == 1 and mesh.internal:
                 outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(gears, "rim", rim))
-                return ring_of(mesh, outer, names[1], titles[1], width, hands[1])
-            return gear_of(mesh, number, names[number], titles[number], width, hands[number])
+                made = ring_of(mesh, outer, names[1], titles[1], width, hands[1])
+            else:
+                made = gear_of(mesh, number, names[number], titles[number], width, hands[number])
+            return replace(made, lines=partial(_lines, data, number, _told(mesh, hands)))
 
     return {name: partial(gear, number) for number, name in enumerate(names)}
 

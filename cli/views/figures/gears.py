@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from io import BytesIO
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -506,6 +507,26 @@ _SLIDING = -6.0, 1.5
 """What is shown of the specific sliding, which is at most 1 where flanks touch."""
 _STEP = 0.15
 """Points of a line farther apart than this, in both shifts, belong to different branches."""
+
+
+_SHARE = 0.7
+"""Of a page's height."""
+
+
+def contour_svg(design: Any) -> bytes:
+    """The blocking contour of a pair alone, as an svg file."""
+    from gearlink.cli.views.figures.drawing.placing import settled
+    from gearlink.cli.views.figures.write import save
+
+    def made() -> Figure:
+        figure = panels.page(design.spec.name, _SHARE)
+        grid = figure.add_gridspec(2, 1, height_ratios=(1.0, 0.12))
+        contour_plot(figure.add_subplot(grid[0]), figure.add_subplot(grid[1]), design.contour)
+        return settled(figure)
+
+    stream = BytesIO()
+    save(made, design.spec.name, stream, "svg")
+    return stream.getvalue()
 
 
 def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:

@@ -28,6 +28,13 @@ def drawing_table(data: GearData, hands: tuple[str, str] | None = None) -> Table
     return _table(rows)
 
 
+def lines_of(table: Table, gear: int) -> list[tuple[str, str, Any, str]]:
+    """Item, symbol, value and unit of the lines of a drawing's table that gear 0 or 1 has."""
+    columns: Any = table.data
+    rows = zip(*columns, strict=True)
+    return [(item, symbol, values[gear], unit) for item, symbol, *values, unit in rows if values[gear] is not None]
+
+
 def _table(rows: list[Row]) -> Table:
     columns = ("item", "symbol", "gear_1", "gear_2", "unit")
     return Table("drawing", columns, ("",) * len(columns), tuple(list(column) for column in zip(*rows, strict=True)))

@@ -13,7 +13,7 @@ from factory import design, worked
 
 from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.views.figures.drawing import time_axes
-from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size, vector_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, paper, timing_sheet, true_size, vector_sheet
 
 SMOOTH = [
     ("candy_feed", "synth dwell"),
@@ -175,7 +175,18 @@ def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) ->
     ended = gearlink("sheet", designs / "ty460.yaml", "--plot-format", "svg", "--out", tmp_path)
     assert (ended.status, ended.out) == (0, "")
     names = (
-        *("contact", "drawing-1", "drawing-2", "motion", "polygons", "pressure", "timing", "vectors"),
+        *(
+            "contact",
+            "drawing-1",
+            "drawing-2",
+            "drawing-gear1",
+            "drawing-gear2",
+            "motion",
+            "polygons",
+            "pressure",
+            "timing",
+            "vectors",
+        ),
         "zone",
     )
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"TY-460-{name}.svg" for name in names]
@@ -189,7 +200,7 @@ def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) ->
     [
         ("ty460_slider_crank", ("timing",), "it has motion"),
         ("six_bar_two_trains", (), "of which this gear-train-mobility has none"),
-        ("gear_pair", (), "its sheet is drawn by `gearlink gear "),
+        ("quiet_law", (), "its sheet is drawn by `gearlink laws "),
         (
             "ty460",
             ("motions",),
@@ -260,7 +271,8 @@ def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) 
     """Read back in mm of paper: all within the frame, the outline as large as the cam times its scale."""
     made = design(name, **keys)
     (cam, *_) = cam_sheets.discs(made)
-    page, scale = true_size.fitted(cam)
+    low, high = true_size._reach(cam)
+    page, scale = paper.fitted(high - low)
     figure = true_size.workshop_drawing(made, 0)
     assert figure.get_size_inches() * 25.4 == pytest.approx((page.width, page.height), rel=1e-12, abs=0.0)
     lines = {line.get_gid(): line.get_xydata() for line in figure.axes[0].lines if line.get_gid()}
@@ -268,7 +280,7 @@ def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) 
     _, own = cam.points(np.linspace(0.0, 2.0 * math.pi, 7201))
     assert np.ptp(profile.real) == pytest.approx(scale * np.ptp(own.real), rel=1e-12)
     assert 20.0 <= profile.real.min() <= profile.real.max() <= page.width - 10.0
-    assert scale in true_size.SCALES
+    assert scale in paper.SCALES
     words = {text.get_text() for text in figure.axes[0].texts}
     assert {f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}", page.name, "1 / 2"} <= words
     assert {f"{value:.3f}" for value in cam_sheets.pitch_radii(cam).tolist()} <= words

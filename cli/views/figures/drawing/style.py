@@ -64,10 +64,14 @@ def stamp(made: Figure, words: str) -> None:
 
 
 def forbid(made: Figure, words: str) -> None:
-    """Words in red across a drawing, larger than all else on it: nobody is to make the part by it."""
+    """Words in red across the view of a drawing, larger than all else on it: nobody is to make the part by it."""
+    left, low, right, high = vars(made).get("view", (0.05, 0.05, 0.95, 0.95))
     lines = fill(words, 36, break_on_hyphens=False)
     look: dict[str, Any] = {"fontsize": 20, "fontweight": "bold", "color": WRONG, "alpha": 0.75, "rotation": 24}
-    made.text(0.5, 0.62, lines, ha="center", va="center", zorder=20, gid="forbidden", in_layout=False, **look)
+    look |= {"ha": "center", "va": "center", "zorder": 20, "gid": "forbidden", "in_layout": False}
+    drawn = made.text(0.5 * (left + right), 0.5 * (low + high), lines, **look)
+    across = drawn.get_window_extent().transformed(made.transFigure.inverted())
+    drawn.set_fontsize(look["fontsize"] * min(1.0, (right - left) / across.width, (high - low) / across.height))
 
 
 def place_title(made: Figure) -> None:

@@ -1,0 +1,124 @@
+"""Drawings of gears and of wide-swing cams, read back in mm of paper: outlines to scale, tables as the design has them.
+
+The scale of a drawing is a number of ISO 5455, so that lengths are the design's times that number to rounding (1e-9);
+an outline differs from its circle by the error of its chords, 0.01 mm of paper, and printed numbers by half a digit.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import design
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from sheets import tagged, words
+
+from gearlink.cli.commands.sheet import sheets_of
+from gearlink.cli.evaluate import whole_design
+from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.sheets import paper, part_drawing
+from gearlink.core.base.kinds import KINDS
+
+
+def whole(name: str, **keys: Any) -> Any:
+    made = design(name, **keys)
+    return whole_design(KINDS[made.kind], made.spec)
+
+
+def scale_of(figure: Any) -> float:
+    (found,) = (each for each in paper.SCALES if paper.ratio(each) in words(figure))
+    return found
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(
+    ("name", "part", "tip", "told"),
+    [
+        ("gear_pair", "gear1", 66.196, {"27.2529", "27.2153", "122.854", "right", "71"}),
+        ("standing_feed", "gear3", 92.0, {"27.8017", "40", "84"}),
+        ("ring_pair", "gear2", 131.2, {"46.5691", "46", "21"}),
+    ],
+)
+def test_a_gear_has_its_outline_and_its_table(name: str, part: str, tip: float, told: set[str]) -> None:
+    figure = part_drawing.drawn(whole(name))[part]()
+    scale = scale_of(figure)
+    (profile,) = (line.get_xydata() @ [1.0, 1j] for line in tagged(figure, "profile"))
+    (pitch,) = (line.get_xydata() @ [1.0, 1j] for line in tagged(figure, "reference circle"))
+    middle = pitch[:-1].mean()
+    far = np.abs(profile - middle)
+    reach = far.min() if name == "ring_pair" else far.max()
+    assert 2.0 * reach == pytest.approx(scale * tip, abs=0.03)
+    assert 20.0 <= profile.real.min() <= profile.real.max() <= figure.get_figwidth() * 25.4 - 10.0
+    assert told <= set(words(figure))
+
+
+def test_an_idler_names_both_mates() -> None:
+    lines = part_drawing.makers(whole("drawn_feed"))["gear3"]().lines()
+    assert [value for item, _, value, _ in lines if item == "teeth of the mating gear"] == [20, 60]
+    assert [value for item, _, value, _ in lines if item == "centre distance"] == [57.5, 107.5]
+
+
+def test_places_of_a_wide_swing_cam_are_those_of_its_roller() -> None:
+    """Every tenth row against the curve at that cam angle, found by bisection; half of the last digit."""
+    made = whole("wide_swing_twin_cam")
+    figure = part_drawing.drawn(made)["main_cam"]()
+    texts = words(figure)
+    for degree in (-50.0, 10.0, 40.0):
+        low, high = 0.0, 1.0
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if _angle(made, middle) < degree else (low, middle)
+        at = complex(made.cam.points(np.array([low])).pitch[0])
+        row = [f"{degree:g}", f"{abs(at):.3f}"]
+        k = next(k for k in range(len(texts)) if texts[k : k + 2] == row)
+        assert float(texts[k + 2]) == pytest.approx(math.degrees(np.angle(at)) % 360.0, abs=5.1e-4)
+
+
+def _angle(made: Any, k: float) -> float:
+    return math.degrees(float(made.cam.points(np.array([k])).cam_angle[0]))
+
+
+@pytest.mark.slow
+def test_parts_that_are_drawn() -> None:
+    names = {
+        "wide_swing_cycle": ["main_cam", "return_cam", "contour", "return_contour"],
+        "wide_swing_slider_cam": ["main_cam"],
+        "wide_swing_slider": [],
+        "ty460_gears": ["1", "2", "gear1", "gear2", "gear3", "gear4", "pinion", "lower_rack", "upper_rack"],
+        "planar_cam": [],
+        "rack_stroke": ["pinion", "fixed_rack", "moving_rack"],
+        "geneva_drive": [],
+    }
+    for name, parts in names.items():
+        found = [sheet for sheet in sheets_of(whole(name)) if sheet.startswith("drawing")]
+        assert found == [f"drawing-{part}" for part in parts], name
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rack_drive", "wide_swing_cycle", "wide_swing_twin_rocker", "mutilated_gear_press"])
+def test_all_of_a_drawing_lies_within_its_frame(name: str) -> None:
+    for make in part_drawing.drawn(whole(name)).values():
+        figure = make()
+        wide, tall = figure.get_size_inches() * 25.4
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        for axes in figure.axes:
+            for text in axes.texts:
+                box = text.get_window_extent(renderer).transformed(figure.transFigure.inverted())
+                assert 20.0 / wide <= box.x0 <= box.x1 <= 1.0 - 10.0 / wide, text.get_text()
+                assert 10.0 / tall <= box.y0 <= box.y1 <= 1.0 - 10.0 / tall, text.get_text()
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("name", ["gear_pair", "wide_swing_cycle"])
+def test_the_stamp_keeps_to_the_view(name: str) -> None:
+    """It had covered rows of the table of an A3, and notes of an A4."""
+    *_, make = part_drawing.drawn(whole(name)).values()
+    figure = make()
+    style.forbid(figure, "NOT FOR MANUFACTURE: GL402 cam-undercut 2.217 (limit ≤ 1), GL401 pressure-angle 48 deg")
+    left, low, right, high = vars(figure)["view"]
+    (stamp,) = (text for text in figure.texts if text.get_gid() == "forbidden")
+    box = stamp.get_window_extent().transformed(figure.transFigure.inverted())
+    assert left - 1e-3 <= box.x0 <= box.x1 <= right + 1e-3
+    assert low - 1e-3 <= box.y0 <= box.y1 <= high + 1e-3
