@@ -16,6 +16,7 @@ _STEPS = 200
 _UNIT = np.linspace(0.0, 1.0, 17)
 _NEWTON_STEPS = 60
 _FAINTEST = 1e-300  # as good as no step: subnormal numbers have no full set of digits to settle in
+_NO_STEP, _BY_SQUARES = 1e-18, 1e-5  # a step so short is none; they converge by the square from there on
 _RESTS = 1e-9  # of x, the last Newton step; the error that it leaves is its square
 
 
@@ -118,7 +119,7 @@ def _inverse(values: Reals, places: Reals) -> tuple[float, float]:
 
 
 def newton_roots(
-    function: Callable[..., tuple[Reals, Reals]], low: Reals, high: Reals, start: Reals, *given: Reals
+    function: Callable[..., tuple[Reals, Reals]], low: Reals, high: Reals, start: Reals, *given: Any, rest: float = 0.0
 ) -> Reals:
     """Roots of rising functions by Newton's method inside brackets; a step that leaves its bracket halves it.
 
@@ -127,6 +128,7 @@ def newton_roots(
         low, high : (N,) arrays - function(low) <= 0 <= function(high)
         start : (N,) array - inside
         given : (N,) arrays that the function takes as well
+        rest : float - a step that is no longer is the last one, beside one of 1e-9 of x
     Returns
         x : (N,) array - each as if it stood alone
     Example
@@ -144,7 +146,7 @@ def newton_roots(
             new = x - value / slope
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
         new = np.where(moves & (value != 0.0), new, x)  # what rests stays
-        moves &= np.abs(new - x) > _RESTS * np.abs(new)
+        moves &= np.abs(new - x) > _RESTS * np.abs(new) + rest
         x, left = new, np.count_nonzero(moves)
         if not left:
             break
@@ -185,6 +187,35 @@ def newton_places(
         # a step past an end stops there; the next one starts from the end
         x[left] = at = np.clip(x[left] - step, 0.0, high)
         left = left[~((np.abs(step) <= _RESTS * at + _FAINTEST) | (np.abs(value) <= floor))]
+    return None
+
+
+def newton_closed(step: Callable[[Reals, Any], Reals], near: Reals) -> Reals | None:
+    """Unknowns of many systems from approximate ones, by Newton's steps until these are rounding.
+
+    Parameters
+        step : of the unknowns, (N, K), and the rows that they are of - Newton's steps
+        near : (M, K) array [rad or shares of a size]
+    Returns
+        found : (M, K) array or None - each row as if it stood alone; None where steps are no numbers or do not end
+    Example
+        >>> c = np.array([[2.0], [9.0]])
+        >>> newton_closed(lambda x, rows: (c[rows] - x * x) / (2.0 * x), np.ones((2, 1))).ravel()
+        array([1.41421356, 3.        ])
+    """
+    found, rows, finest = near.copy(), np.arange(len(near)), np.full(len(near), np.inf)
+    for _ in range(_NEWTON_STEPS):
+        change = step(found[rows], rows)
+        size = np.abs(change).max(axis=1)
+        if not np.isfinite(size).all():
+            return None
+        taken = size < finest  # steps shrink until rounding is reached
+        found[rows[taken]] += change[taken]
+        # the next one would be as much shorter again, squared: s_(k+1) = s_k (s_k/s_(k-1))^2
+        going = taken & (size**3 >= _NO_STEP * np.minimum(finest, _BY_SQUARES) ** 2)
+        if not going.any():
+            return found
+        rows, finest = rows[going], size[going]
     return None
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -33,13 +34,12 @@ from gearlink.core.machines.planar.system import (
 from gearlink.core.mechanism.blocks import Block
 from gearlink.core.mechanism.follow import JAM, MOST_TURNS, Place, Walk
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.roots_sweep import newton_closed
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.cams import CamJoint, Lift
 
 _TURN = 2.0 * math.pi
-_ROUNDS = 60
-_FINE = 1e-10  # of a revolution or of size, after a step so short another one would be some 1e-20
 _SINGULAR = 1e-12
 _HOME = 1e-7, 1e-6  # rad, and shares of size
 _MOST = 4_000_000  # numbers of the matrices that are looked at together
@@ -79,23 +79,12 @@ def settled(system: System, q: Reals, near: Reals) -> Reals:
     Raises
         NoSolution - where the steps do not close the mechanism
     """
-    found, rows, finest = near.copy(), np.arange(q.size), np.full(q.size, math.inf)
-    for _ in range(_ROUNDS):
-        jets = Jets.of(found[rows])
-        try:
-            step = system.step(jets, q[rows])
-        except np.linalg.LinAlgError:
-            break
-        size = np.abs(step).max(axis=1)
-        if not np.isfinite(size).all():
-            break
-        taken = size < finest
-        found[rows[taken]] += step[taken]
-        going = taken & (size >= _FINE)
-        if not going.any():
-            return found
-        rows, finest = rows[going], size[going]
-    raise NoSolution("the mechanism does not close there")
+    found = None
+    with suppress(np.linalg.LinAlgError):
+        found = newton_closed(lambda y, rows: system.step(Jets.of(y), q[rows]), near)
+    if found is None:
+        raise NoSolution("the mechanism does not close there")
+    return found
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ places of all courses together.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +16,10 @@ from gearlink.core.machines.planar.course import Course
 from gearlink.core.machines.planar.system import Jets
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.roots_sweep import newton_roots
 from gearlink.core.numerics.together import kept_last
 
 Coefficient: TypeAlias = Callable[[Jets, int], Reals]
-_ROUNDS = 40
 _NOISE = 1e-11  # of the size of a course and its lower derivatives: what is below stands still
 _EQUAL = 1e-10
 _AT_END = 1e-9  # of the period
@@ -176,28 +176,18 @@ def _refined(
     course: Course, of: Mapping[str, Coefficient], sought: Sequence[_Sought], highest: int
 ) -> tuple[Reals, Reals]:
     """Places of the extremes and values there, by Newton's steps kept inside their brackets."""
+    if not sought:
+        return np.zeros(0), np.zeros(0)
     low, high = np.array([each.low for each in sought]), np.array([each.high for each in sought])
-    place = 0.5 * (low + high)
-    value, going = np.zeros(place.size), np.arange(place.size)
-    for _ in range(_ROUNDS):
-        if not going.size:
-            break
-        here = [sought[i] for i in going]
-        first, second = _pick(course, of, here, place[going], highest)
-        rising = np.array([each.sign for each in here]) * first > 0.0  # the extreme lies farther on
-        low[going] = np.where(rising, place[going], low[going])
-        high[going] = np.where(rising, high[going], place[going])
-        with np.errstate(all="ignore"):
-            step = -first / second
-        inside = np.isfinite(step) & (place[going] + step >= low[going]) & (place[going] + step <= high[going])
-        middle = 0.5 * (low[going] + high[going])
-        new = np.where(inside, place[going] + step, middle)
-        moved = np.abs(new - place[going])
-        place[going] = new
-        going = going[(moved > 1e-13 * np.maximum(1.0, np.abs(new))) & (first != 0.0)]
-    if len(sought):
-        value = _pick(course, of, sought, place, highest, values=True)[0]
-    return place, value
+
+    def falling(q: Reals, rows: Any) -> tuple[Reals, Reals]:
+        here = [sought[i] for i in rows]
+        first, second = _pick(course, of, here, q, highest)
+        sign = np.array([each.sign for each in here])
+        return -sign * first, -sign * second
+
+    place = newton_roots(falling, low, high, 0.5 * (low + high), np.arange(low.size), rest=1e-13)
+    return place, _pick(course, of, sought, place, highest, values=True)[0]
 
 
 def _pick(

@@ -17,7 +17,7 @@ from itertools import chain, combinations, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
@@ -32,13 +32,13 @@ from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
 from gearlink.core.numerics.arrays import Reals, distinct, product, turn_degrees, turned
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import sign_changes
-from gearlink.core.numerics.roots_sweep import bracketed_roots
+from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_closed
 from gearlink.core.parts.gears.checks import gear_ways
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.dyad import close_dyad, require_lengths
-from gearlink.core.parts.linkages.standstills import OutputRates, Turning, standing
+from gearlink.core.parts.linkages.standstills import OutputRates, Turning, standstills
 from gearlink.core.studies.clearance import (
     FULL_HEIGHT,
     SHAFT_WAYS,
@@ -138,8 +138,6 @@ FREE = range(2, _COUNT)
 NAMES = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 
 _BLOCK = 4096  # of places, so that they stay in the cache
-_REST = 1e-18  # rad, a step so short is none
-_NEAR = 1e-5  # rad, steps converge by the square from there on
 
 
 @dataclass(frozen=True)
@@ -283,32 +281,26 @@ class SixBar:
         return angles
 
     def _block_by_newton(self, phi: Reals, near: Reals) -> Reals:
-        """Each place rests by itself: no bit of it depends on the others."""
         _, first, slopes, shares = self.numbers
         base = first[:, None] + slopes[:, None] * phi
         cos, sin = turned(phi)
-        chord = self.lengths[1] * cos - self.lengths[0], self.lengths[1] * sin
-        u, finest = near.copy(), np.full(phi.shape, np.inf)
-        found, rows = u.copy(), np.arange(phi.size)
-        for _ in range(_ROUNDS):
-            cos, sin = self._projections(base + _weighted(shares, u))
-            ends = _weighted(shares.T, cos), _weighted(shares.T, sin)
-            step = _closing(*ends, chord[0] + cos.sum(axis=0), chord[1] + sin.sum(axis=0))
-            size = np.abs(step).max(axis=0)
-            if not np.isfinite(size).all():
-                break
-            taken = size < finest  # steps shrink until rounding is reached
-            u = u + np.where(taken, step, 0.0)
-            found[:, rows] = u
-            # the next one would be as much shorter again, squared: s_(k+1) = s_k (s_k/s_(k-1))^2
-            going = taken & (size**3 >= _REST * np.minimum(finest, _NEAR) ** 2)
-            if not going.any():
-                return first[:, None] + slopes[:, None] * phi + _weighted(shares, found)
-            if not going.all():
-                u, base, rows, size = u[:, going], base[:, going], rows[going], size[going]
-                chord = chord[0][going], chord[1][going]
-            finest = size
-        raise NoSolution("the six-bar does not close there")
+        chord = np.array([self.lengths[1] * cos - self.lengths[0], self.lengths[1] * sin])
+
+        def step(u: Reals, rows: Any) -> Reals:
+            if rows.size < phi.size:  # to look at few of all takes as long as to copy them
+                return self._closing_step(base[:, rows], chord[:, rows], u.T).T
+            return self._closing_step(base, chord, u.T).T
+
+        found = newton_closed(step, near.T)
+        if found is None:
+            raise NoSolution("the six-bar does not close there")
+        return base + _weighted(shares, found.T)
+
+    def _closing_step(self, base: Reals, chord: Reals, u: Reals) -> Reals:
+        cos, sin = self._projections(base + _weighted(self.numbers[3], u))
+        shares = self.numbers[3].T
+        opened = chord[0] + cos.sum(axis=0), chord[1] + sin.sum(axis=0)
+        return _closing(_weighted(shares, cos), _weighted(shares, sin), *opened)
 
     def rates(self, phi: Reals, angles: Reals, order: int = 3) -> tuple[Reals, ...]:
         """First derivatives of the directions of links 2 to 5 by the input angle, up to three.
@@ -606,7 +598,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
         fastest = max(abs(t.value) for t in self.speed_turnings)
         period = None if self.period_turns is None else self.course.end
-        return standstills(self.rate(1), self.speed_turnings, _STANDSTILL * fastest, period)
+        return standstills(self.rate(1), self.speed_turnings, _STANDSTILL * fastest, period, _between)
 
     @cached_property
     def output_swing(self) -> float | None:
@@ -799,27 +791,9 @@ def zeros(f: Function, grid: Reals) -> list[float]:
     return _between(f, grid[places], grid[places + 1], (values[places], values[places + 1]))
 
 
-def standstills(f: Function, extremes: list[Turning], tolerance: float, period: float | None) -> list[float]:
-    """Input angles at which a speed ratio is zero, touching zeros among them, ascending.
-
-    Parameters
-        f : function of arrays of input angles [rad]
-        extremes, tolerance, period : as of `standing`
-    Example
-        >>> f, grid = (lambda x: 1.0 + 2.0 * np.sin(x)), np.linspace(0.0, 2.0 * np.pi, 100)
-        >>> found = standstills(f, turnings(f, np.cos, grid, False), 1e-9, 2.0 * np.pi)
-        >>> np.degrees(found).round(9).tolist()
-        [210.0, 330.0]
-    """
-    places, between = standing(extremes, tolerance, period)
-    if between:
-        (low, high), ends = np.array(between).transpose(2, 1, 0)
-        places += _between(f, low, high, (ends[0], ends[1]))
-    return sorted(place if period is None else place % period for place in places)
-
-
-def _between(f: Function, low: Reals, high: Reals, ends: tuple[Reals, Reals]) -> list[float]:
-    found = bracketed_roots(f, low, high, ends=ends)
+def _between(f: Function, lows: ArrayLike, highs: ArrayLike, ends: Any) -> list[float]:
+    low, high, first, last = (np.asarray(each, dtype=float) for each in (lows, highs, *ends))
+    found = bracketed_roots(f, low, high, ends=(first, last))
     if np.isnan(found).any():
         at = float(np.degrees(low[np.isnan(found)][0]))
         raise NoSolution(

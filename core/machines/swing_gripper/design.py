@@ -30,6 +30,7 @@ from gearlink.core.machines.swing_gripper.motion import Motion, require
 from gearlink.core.numerics.arrays import Points, Reals, product, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
+from gearlink.core.numerics.roots_sweep import newton_places, root_between
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.cams.checks import (
     AS_THICK_AS_ROLLER,
@@ -78,7 +79,6 @@ if TYPE_CHECKING:
 
 
 _SAMPLES = 256
-_ROUNDS, _PARTS = 5, 64
 _DRUM_REMEDY = "turn arm.direction"
 
 
@@ -217,12 +217,7 @@ class Passes:
         low, high = 0.0, self.linkage.law.total_swing
         if turned in (0.0, abs(self._sweep)):
             return high if turned else low
-        for _ in range(_ROUNDS):
-            swing = np.linspace(low, high, _PARTS + 1)
-            part = int(np.searchsorted(np.abs(_input_angle(self.linkage, swing) - self._ends[0]), turned))
-            part = min(max(part, 1), _PARTS)
-            low, high = float(swing[part - 1]), float(swing[part])
-        return 0.5 * (low + high)
+        return root_between(lambda swing: np.abs(_input_angle(self.linkage, swing) - self._ends[0]) - turned, low, high)
 
 
 def _coupler_ends(linkage: GripperLinkage, swing: Reals) -> tuple[Points, Points]:
@@ -1620,7 +1615,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
 
 _TURN = 2.0 * math.pi
-_STEPS = 60
 _GRID = 3600
 
 
@@ -1715,13 +1709,14 @@ class FingerCam:
         grid, angles = self._grid
         wanted = np.mod(cam_angle, _TURN)
         degrees = np.asarray(np.interp(wanted, angles, grid), dtype=np.float64)
-        for _ in range(_STEPS):
-            angle, rate, _ = self.cam_angle(np.minimum(degrees, np.nextafter(360.0, 0.0)))
-            off = angle - wanted
-            degrees = np.minimum(np.maximum(degrees - np.degrees(off / rate), 0.0), np.nextafter(360.0, 0.0))
-            if np.max(np.abs(off), initial=0.0) <= 1e-14 * _TURN:
-                break
-        return degrees
+
+        def excess(at: Reals, rows: Any) -> tuple[Reals, Reals]:
+            angle, rate, _ = self.cam_angle(at)
+            return angle - wanted[rows], np.radians(rate)
+
+        found = newton_places(excess, degrees, float(np.nextafter(360.0, 0.0)), 1e-14 * _TURN)
+        assert found is not None, "the cam angle rises all the way"
+        return found
 
     @cached_property
     def cam(self) -> DiscCam:

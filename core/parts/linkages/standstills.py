@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearlink.core.base.design import placed
 from gearlink.core.numerics.roots import bracketed_root, roots_on
@@ -117,39 +117,33 @@ def turnings(speed: Function, acceleration: Function, grid: list[float] = GRID) 
     return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration, grid)]
 
 
-def standstills(speed: Function, extremes: Sequence[Turning], tolerance: float) -> list[float]:
+def bracketed(f: Function, lows: Sequence[float], highs: Sequence[float], ends: Any) -> list[float]:
+    """Roots of a function between places, where its values are known."""
+    pairs = zip(lows, highs, zip(*ends, strict=True), strict=True)
+    return [bracketed_root(f, low, high, ends=values) for low, high, values in pairs]
+
+
+def standstills(
+    speed: Any,
+    extremes: Sequence[Turning],
+    tolerance: float,
+    period: float | None = TURN,
+    roots: Callable[..., list[float]] = bracketed,
+) -> list[float]:
     """Crank angles at which the speed ratio is zero, touching zeros among them.
 
     Parameters
         speed : function of the crank angle [rad]
         extremes : list of Turning - of that speed; between two of them it runs one way, so no zero is missed
         tolerance : float - an extreme within it of zero is one momentary standstill
+        period : float [rad] - after which the speed repeats; None over a range, whose ends are among the extremes
+        roots : as `bracketed`
     Returns
-        places : list of float [rad] - ascending, in [0, 2 pi)
+        places : list of float [rad] - ascending, within a period from 0
     Example
         >>> f, slope = (lambda x: 1 + 2 * math.sin(x)), (lambda x: 2 * math.cos(x))
         >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
         [210.0, 330.0]
-    """
-    places, between = standing(extremes, tolerance)
-    for one, other in between:  # values as they were compared: a revolution later the speed is rounded otherwise
-        places.append(bracketed_root(speed, one.place, other.place, ends=(one.value, other.value)))
-    return sorted(place % TURN for place in places)
-
-
-def standing(
-    extremes: Sequence[Turning], tolerance: float, period: float | None = TURN
-) -> tuple[list[float], list[tuple[Turning, Turning]]]:
-    """Momentary standstills, and pairs of extremes between which a speed ratio passes zero once.
-
-    Parameters
-        extremes, tolerance : as of `standstills`
-        period : float [rad] - after which the speed repeats; None over a range, whose ends are among the extremes
-    Returns
-        places, between : list of float [rad], list of two Turnings - of opposite signs
-    Example
-        >>> standing([Turning(0.0, 1.0), Turning(2.0, 0.0), Turning(3.0, 1.0), Turning(4.0, -1.0)], 0.0, None)
-        ([2.0], [(Turning(place=3.0, value=1.0), Turning(place=4.0, value=-1.0))])
     """
     around = extremes
     if period is not None and extremes:
@@ -159,7 +153,11 @@ def standing(
         for one, other in pairwise(around)
         if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0
     ]
-    return [t.place for t in extremes if abs(t.value) <= tolerance], between
+    places = [turning.place for turning in extremes if abs(turning.value) <= tolerance]
+    if between:  # values as they were compared: a revolution later the speed is rounded otherwise
+        (lows, first), (highs, last) = (zip(*side, strict=True) for side in zip(*between, strict=True))
+        places += roots(speed, lows, highs, (first, last))
+    return sorted(place if period is None else place % period for place in places)
 
 
 def back_steps(speed: Function, angle: Function, places: list[float]) -> list[BackStep]:
