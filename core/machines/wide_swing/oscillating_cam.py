@@ -29,6 +29,7 @@ from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.machines.wide_swing.slider import SliderLaw
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
+from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.sweep import solve
@@ -129,6 +130,8 @@ _AT_STOP = 1e-8
 """So near to a stop the first derivative has no more right digits in its direction than the limit there."""
 _FAR = 0.98
 """Part of the way from one stop to the next over which a roller that stands is looked at."""
+_SHORT = 0.02
+"""Part of the stroke beside a stop in which a step is integrated: the differences of places keep 11 digits beyond."""
 _NOISE = 1e-15
 """How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
@@ -385,8 +388,19 @@ class OscillatingCam:
         """Lengths of the pitch point's steps from a stop, and their parts against the profile's normal [mm]."""
         points = self.points(np.append(k, stop))
         step = points.pitch[:-1] - points.pitch[-1]
+        near = np.abs(k - stop) <= _SHORT  # of two places nearly alike few digits would be left
+        if near.any():
+            step[near] = self._short_step(k[near], stop)
         normal = (points.profile - points.pitch)[:-1] / self.roller_radius
         return np.abs(step), -(step * np.conj(normal)).real
+
+    def _short_step(self, k: Reals, stop: float) -> Points:
+        """The steps [mm] as integrals of the velocity, whose digits are right down to the stop."""
+        nodes, weights = gauss_legendre(12)
+        half = 0.5 * (k - stop)
+        step = self.step((stop + half[:, None] * (1.0 + nodes)).ravel())
+        velocity = (np.exp(1j * step.chi[0]) * step.first).reshape(k.size, nodes.size)
+        return np.asarray(self.center_distance * half * (velocity @ weights))
 
     @cached_property
     def transition_zone(self) -> float:

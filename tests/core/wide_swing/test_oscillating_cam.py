@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,8 @@ SWING = math.radians(120.0)
 BAR = FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0)
 DRIVE = CrankRockerDrive(BAR)
 CAM = OscillatingCam(DRIVE, ElasticLaw(Pneumatic(2.5), SWING), 1.0, 0.02)
+PENDULUM = OscillatingCam(DRIVE, ElasticLaw(Spring(3.0, pendulum_stretch_ratio(3.0, SWING)), SWING), 1.0, 0.02)
+"""With a law in closed form."""
 
 
 def test_reference() -> None:
@@ -73,33 +76,38 @@ def test_mirrored_linkage_swaps_the_strokes() -> None:
     assert mirror.swing == pytest.approx(back.swing, rel=1e-14)
 
 
+def exact_curve() -> Callable[[Any], Any]:
+    """Pitch curve of `PENDULUM` over the fraction of the stroke, with the digits that mpmath works with."""
+    gamma = mp.mpf(SWING)
+    m = mp.sin(gamma / 4)
+    quarter = mp.ellipk(m * m)
+    first = mp.acos((mp.mpf(16) + 16 - mp.mpf("6.25")) / 32)
+    last = mp.pi + mp.acos((mp.mpf(4) + 16 - mp.mpf("6.25")) / 16)
+
+    def rocker(k: Any) -> Any:
+        """Angle of the rocker against the frame by the cosine rule."""
+        pin = mp.expj(first + k * (last - first)) - 4
+        reach = mp.sqrt(mp.re(pin) ** 2 + mp.im(pin) ** 2)
+        inner = mp.acos((reach**2 + mp.mpf("6.25") - 9) / (5 * reach))
+        return mp.atan2(mp.im(pin), mp.re(pin)) % (2 * mp.pi) - inner
+
+    middle = rocker(mp.mpf("0.5"))
+    speed = mp.diff(rocker, mp.mpf("0.5"))
+    ratio = 1 / (1 + 4 * quarter * m / speed)
+
+    def curve(k: Any) -> Any:
+        phi = -2 * mp.asin(m * mp.ellipfun("sn", quarter * (1 - 2 * k), m=m * m))
+        return mp.expj(rocker(k) - middle) * (-1 + ratio * mp.expj(phi))
+
+    return curve
+
+
 def test_curvature_by_differentiating_the_curve() -> None:
-    law = ElasticLaw(Spring(3.0, pendulum_stretch_ratio(3.0, SWING)), SWING)
-    cam = OscillatingCam(DRIVE, law, 1.0, 0.02)
+    cam = PENDULUM
     k = np.array([0.02, 0.2, 0.45, 0.5 - 2.0**-7, 0.6, 0.9])
     points = cam.points(k)
     with mp.workdps(40):
-        gamma = mp.mpf(SWING)
-        m = mp.sin(gamma / 4)
-        quarter = mp.ellipk(m * m)
-        first = mp.acos((mp.mpf(16) + 16 - mp.mpf("6.25")) / 32)
-        last = mp.pi + mp.acos((mp.mpf(4) + 16 - mp.mpf("6.25")) / 16)
-
-        def rocker(k: Any) -> Any:
-            """Angle of the rocker against the frame by the cosine rule."""
-            pin = mp.expj(first + k * (last - first)) - 4
-            reach = mp.sqrt(mp.re(pin) ** 2 + mp.im(pin) ** 2)
-            inner = mp.acos((reach**2 + mp.mpf("6.25") - 9) / (5 * reach))
-            return mp.atan2(mp.im(pin), mp.re(pin)) % (2 * mp.pi) - inner
-
-        middle = rocker(mp.mpf("0.5"))
-        speed = mp.diff(rocker, mp.mpf("0.5"))
-        ratio = 1 / (1 + 4 * quarter * m / speed)
-
-        def curve(k: Any) -> Any:
-            phi = -2 * mp.asin(m * mp.ellipfun("sn", quarter * (1 - 2 * k), m=m * m))
-            return mp.expj(rocker(k) - middle) * (-1 + ratio * mp.expj(phi))
-
+        curve = exact_curve()
         for i, place in enumerate(k.tolist()):
             z, d1, d2 = (mp.diff(curve, mp.mpf(place), n) for n in range(3))
             assert points.pitch[i] == pytest.approx(complex(z), abs=1e-14)
@@ -157,6 +165,24 @@ def test_roller_touches_the_profile_where_contact_says(cam: OscillatingCam) -> N
         lost.append(np.linspace(last, 1.0, 42)[1:-1])
     inside = np.concatenate(lost)
     assert np.all(nearest(inside[inside != 0.5]) < 1.0)
+
+
+def test_contact_begins_where_the_standing_roller_is_left() -> None:
+    """The step t from a stop is of its square, its part against the normal of its cube: t^-2 times some roundings."""
+    (first, start), (end, last) = PENDULUM.contact
+    with mp.workdps(40):
+        curve = exact_curve()
+        for stop, found in ((0.0, first), (0.5, start), (0.5, end), (1.0, last)):
+            t = found - stop
+            if t == 0.0:
+                continue
+
+            def room(part: Any, stop: float = stop) -> Any:
+                way = mp.diff(curve, stop + part)
+                return abs(curve(stop + part) + 0.02j * way / abs(way) - curve(mp.mpf(stop))) - mp.mpf("0.02")
+
+            assert t == pytest.approx(float(mp.findroot(room, (t, 1.001 * t))), rel=4e-15 / t**2, abs=0.0)
+    assert first > 0.0
 
 
 def test_bulging_end_is_covered_and_hollow_end_is_not() -> None:
