@@ -94,7 +94,8 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
         partial(_curve, title="Coupler speed", ylabel="ω₂/ω₁", name="coupler_ratio"),
         partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
     ]
-    return linkage.sheet(title, design, mechanism, _WORDS, charts)
+    known = design.quantity_names()  # a synthesis for a back-step or a momentary dwell has no window
+    return linkage.sheet(title, design, mechanism, {name: _WORDS[name] for name in _WORDS if name in known}, charts)
 
 
 def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
