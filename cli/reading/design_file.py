@@ -367,7 +367,7 @@ def _scatters_by_terms(data: dict[str, Any]) -> bool:
     """Whether a source of the tolerances is named by the path of a key that has a standard term in it."""
     try:
         return any(has_term(path) for path in data["tolerance"]["sources"])
-    except (LookupError, TypeError):
+    except (LookupError, TypeError, AttributeError):
         return False
 
 

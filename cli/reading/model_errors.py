@@ -286,12 +286,32 @@ def _mismatch(finding: _Finding) -> bool:
     return finding.kind in WANTED or finding.kind in ("literal_error", "enum")
 
 
+def _spelled(key: str) -> str:
+    return re.sub(r"[\s-]+", "_", key[:100].strip().lower())
+
+
+def _meant(key: str, allowed: Sequence[str], missing: Sequence[str]) -> str:
+    """The key that another spelling stands for: of those that are missing, then of all; "" where none is near.
+
+    Example
+        >>> _meant("tx", ["law", "lift", "to"], ["to"]), _meant("liftt", ["law", "lift", "to"], ["to"])
+        ('to', 'lift')
+    """
+    plain = _spelled(key)
+    for names, cutoff in ((missing, 0.6), (allowed, 0.6), (missing if len(missing) == 1 else (), 0.45)):
+        by_letters = {name.lower(): name for name in names}
+        if near := get_close_matches(plain, by_letters, n=1, cutoff=cutoff):
+            return by_letters[near[0]]
+    return ""
+
+
 class _Wording:
     """Turns findings into diagnostics."""
 
     def __init__(self, loaded: LoadedFile, model: type[BaseModel]) -> None:
         self.loaded = loaded
         self.model = model
+        self.missing: dict[KeyPath, list[str]] = {}
 
     def diagnostic(self, group: list[_Finding]) -> Diagnostic:
         finding = group[0]
@@ -395,8 +415,7 @@ class _Wording:
             return hint(meaning, key, value, parent, self.loaded.data)
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
-        plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
-        by_letters = {name.lower(): name for name in allowed}  # A_radius beside W_radius
+        plain, by_letters = _spelled(key), {name.lower(): name for name in allowed}  # A_radius beside W_radius
         if plain not in by_letters and (elsewhere := self._elsewhere(key)):
             return f"{elsewhere}; {listed}"
         near = get_close_matches(plain, by_letters, n=1, cutoff=_SLIP)
@@ -409,8 +428,8 @@ class _Wording:
             return f"its keys belong to {level} of this kind: {', '.join(higher[:_LISTED_KEYS])}"
         if not near and not parent and (deeper := self._deeper(plain)):
             return f"it belongs to {deeper}; {listed}"
-        if near := get_close_matches(plain, by_letters, n=1):
-            return f"did you mean '{by_letters[near[0]]}'? {listed}"
+        if meant := _meant(key, allowed, self.missing.get(parent, ())):
+            return f"did you mean '{meant}'? {listed}"
         own = {path: [name.lower() for name in self._keys(path)] for path in self._sections() if path != parent}
         sections = [path for path, names in own.items() if plain in names]
         if not sections:
@@ -462,14 +481,26 @@ class _Wording:
         """The keys that words instead of them stand for, and their sections: that they are missing is said already."""
         found: set[str] = set()
         for finding in findings:
+            if finding.kind == "missing":
+                self.missing.setdefault(finding.path[:-1], []).append(str(finding.path[-1]))
+        for finding in findings:
             if finding.kind == "extra_forbidden":
                 *parent, last = finding.path
                 allowed = list(fields_at(self.model, tuple(parent), self.loaded.data))
+                lacking = self.missing.get(tuple(parent), ())
+                if meant := _meant(str(last), allowed, lacking):
+                    found |= {format_path((*parent, meant))} if meant in lacking else self._asked_for(findings, parent)
                 meaning = self._meaning(str(last), tuple(parent), allowed)
                 for key in meaning.keys if meaning else ():
                     steps = key.split(".")
                     found.update(".".join(steps[:depth]) for depth in range(1, len(steps) + 1))
         return found
+
+    def _asked_for(self, findings: Sequence[_Finding], section: Sequence[str | int]) -> set[str]:
+        """The keys that a section must have instead of others, of which one may be misspelled."""
+        paths = (each.path + (parse_path(str(each.context.get("key", ""))) or ()) for each in findings
+                 if each.kind == "GL106")  # fmt: skip
+        return {format_path(path) for path in paths if [*path[:-1]] == [*section]}
 
     def _sections(self) -> list[KeyPath]:
         return [(), *((name,) for name in self._keys(()))]

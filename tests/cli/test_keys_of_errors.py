@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import copy
+import json
 import logging
 import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +17,9 @@ import pytest
 from systems import UNIX
 
 from gearlink.cli.quiet import without_notes
+from gearlink.cli.reading.design_file import parse, validate
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.core.base.kinds import FILES
 
 _ALLOWED = """\
 {kind: gear-pair, module: 1e-5, teeth: [23, 71], profile_shift: [0.35, 0.15], center_distance_allowance: js7}
@@ -160,3 +166,48 @@ def test_quantities_are_found_by_symbol_and_by_their_words_in_any_order(
 def test_of_many_quantities_the_first_are_listed(gearlink: Any, designs: Path) -> None:
     ended = gearlink("gear", designs / "gear_pair.yaml", "--quantity", "xyzzy")
     assert re.search(r"help: known: (\w+, ){12}and \d+ more, which --all shows", ended.err)
+
+
+def paths_of(data: Any, before: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """The paths of all keys of a file."""
+    for step, inner in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
+        if isinstance(step, str):
+            yield (*before, step)
+        yield from paths_of(inner, (*before, step))
+
+
+def misspelled(data: Any, path: tuple[Any, ...]) -> Any:
+    """The data with another last letter of one key."""
+    made = copy.deepcopy(data)
+    place = made
+    for step in path[:-1]:
+        place = place[step]
+    items = [(key[:-1] + "x" if key == path[-1] else key, value) for key, value in place.items()]
+    place.clear()
+    place.update(items)
+    return made
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(
+    "name", ["loaded_geneva", "planar_quick_return", "wide_swing_cycle", "rated_pair", "ty460", "candy_feed_tolerances"]
+)
+def test_a_misspelled_key_is_one_error(designs: Path, name: str) -> None:
+    """Nor is the key said to be missing that it stands for, or one that is wanted instead of it."""
+    path = designs / f"{name}.yaml"
+    data = parse(path.read_bytes(), path.name).data
+    model = FILES[data["kind"]].spec_model()
+    several = {}
+    for place in paths_of(data):
+        text = json.dumps(misspelled(data, place)) if place != ("kind",) else json.dumps(data)
+        try:
+            validate(parse(text.encode(), path.name), model)  # a name that the file chooses
+        except DesignFileError as error:
+            several[place] = [each.message for each in error.diagnostics]
+    assert len(several) > 5
+    assert {place: told for place, told in several.items() if len(told) > 1} == {}
+
+
+def test_sources_in_a_list_are_refused(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("tolerance", designs / "slider_crank_tolerances.yaml", "--set", "tolerance.sources=[1, x]")
+    assert (ended.status, "tolerance.sources must be a section of keys" in ended.err) == (2, True)
