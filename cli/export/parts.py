@@ -1089,12 +1089,8 @@ def coupler_path(design: Any) -> Makers:
 
 def planar(design: Any) -> Makers:
     """Makers of the paths by `PATH-POINT`, of the gears, with standard teeth, by mesh and link, and of the cams."""
-    from gearlink.core.machines.planar.outputs import moved
-
-    structure = design.structure
-    points = [name for name in design.spec.shown if len(moved(structure, name)) == 2]
-    found: Makers = {**{f"{PATH}{name}": partial(_path, design, name) for name in points}, **_gears(design)}
-    found |= {name: partial(_planar_cam, name, cam) for name, cam in structure.cams.items()}
+    found: Makers = {**{f"{PATH}{name}": partial(_path, design, name) for name in design.traced}, **_gears(design)}
+    found |= {name: partial(_planar_cam, name, cam) for name, cam in design.structure.cams.items()}
     if not found:
         raise MissingSection("no path to export", key="outputs", fix="name a point of a link in outputs")
     return found

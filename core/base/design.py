@@ -145,6 +145,11 @@ class Design:
         return KINDS[self.kind].motion_of(self)
 
     @property
+    def traced(self) -> Sequence[str]:
+        """Points of links whose paths count, by name."""
+        return ()
+
+    @property
     def output_columns(self) -> Mapping[str, tuple[str, ...]]:
         """Columns of the output over the cycle, by table: those of the kind."""
         from gearlink.core.base.kinds import KINDS

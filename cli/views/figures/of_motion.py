@@ -33,16 +33,17 @@ _PLACES = 360
 
 def draw(command: str, design: Any) -> Figure:
     """The picture of a command; beside the curves where the mechanism is high, else above them."""
-    motion, build = design.moving, builder(design.kind)
+    motion = design.moving
     made = panels.page(f"{design.spec.name}: {command}")
-    scene = build(design, np.array([_SHOWN, _SHOWN + 0.5]))
+    paths = [shown.Wish("path", point) for point in design.traced]
+    scene = shown.build(design, np.array([_SHOWN, _SHOWN + 0.5]), paths)
     wide, high = scene_axes.sides(scene)
     beside = high > _HIGH * wide
     grid: Any = made.add_gridspec(3, 2) if beside else made.add_gridspec(4, 1, height_ratios=(2.2, 1.0, 1.0, 1.0))
     mechanism = made.add_subplot(grid[:, 0] if beside else grid[0])
     words = "After an eighth of the cycle, pale half later" if beside else _ABOVE
     panels.drawing(mechanism, words)
-    ahead = build(design, np.array([_SHOWN + scene_axes.AHEAD]))
+    ahead = shown.build(design, np.array([_SHOWN + scene_axes.AHEAD]), paths)
     scene_axes.draw(mechanism, scene, ahead=ahead, driven=_driven(motion))
     scene_axes.lightly(mechanism, scene, 1)
     rows = [made.add_subplot(grid[order, 1] if beside else grid[order + 1]) for order in range(3)]

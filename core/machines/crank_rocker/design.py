@@ -140,6 +140,11 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
     frame_length: float = placed("linkage.frame")
 
     @property
+    def traced(self) -> tuple[str, ...]:
+        """The coupler point, where the file has one."""
+        return () if self.spec.coupler_point is None else ("P",)
+
+    @property
     def coupler_point(self) -> complex | None:
         """The point of the coupler whose path is wanted, in its coordinates [mm]."""
         return None if self.spec.coupler_point is None else complex(*self.spec.coupler_point)

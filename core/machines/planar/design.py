@@ -486,6 +486,11 @@ class PlanarMechanism(Design):
         return Quantity(name, math.degrees(found) if meaning.unit == "deg" else found, meaning.unit, "", words_of(name))
 
     @property
+    def traced(self) -> tuple[str, ...]:
+        """The outputs of the file that are points."""
+        return tuple(name for name in self.spec.shown if len(moved(self.structure, name)) == 2)
+
+    @property
     def output_columns(self) -> dict[str, tuple[str, ...]]:
         """The first output of the file."""
         return {"motion": tuple(part.columns[0] for part in moved(self.structure, self.spec.shown[0]))}

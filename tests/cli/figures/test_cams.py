@@ -225,3 +225,15 @@ def test_stretches_of_a_small_transmission_angle_are_red_on_every_sheet_of_motio
     assert low.any()
     assert not low.all()
     assert (shown != low).sum() <= 12  # a step at either end of each stretch, and their neighbours
+
+
+def test_the_picture_of_a_four_bar_has_the_path_of_its_coupler_point() -> None:
+    """P at the crank angles of its table, within the chord of a degree."""
+    made, figure = sheet("crank_rocker_links")
+    table = made.table("path")
+    lines = [line.get_xydata() @ [1.0, 1j] for line in figure.axes[0].lines if len(line.get_xdata()) == 361]
+    at = np.asarray(table["x"]) + 1j * np.asarray(table["y"])
+    assert any(max(np.abs(line - each).min() for each in at.tolist()) < 0.5 for line in lines)
+    assert any("path of P" in text.get_text() for text in figure.axes[0].texts)
+    (axes, *_) = sheet("crank_rocker").figure.axes
+    assert not any(len(line.get_xdata()) == 361 for line in axes.lines)
