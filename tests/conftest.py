@@ -148,6 +148,8 @@ WHOLE = 500
 """A run of so many tests is a part of `make test`, or more."""
 BUDGET = 60
 """Processor seconds that each half of `make test` may take. It is said in red, and fails nothing: machines differ."""
+FULL_BUDGET = 2400
+"""The same of all tests of `make check-full`; what goes beyond it belongs to `make stress`."""
 
 
 def pytest_collection_finish() -> None:
@@ -163,37 +165,43 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
     try:
         return (yield)
     finally:
+        seconds = _processor_seconds() - begun
+        _full[item.location[0]] = _full.get(item.location[0], 0.0) + seconds
         if not item.get_closest_marker("slow") and not item.get_closest_marker("stress"):
-            _taken.setdefault(item.location[0], []).append(_processor_seconds() - begun)
+            _taken.setdefault(item.location[0], []).append(seconds)
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: Any) -> None:
     """What the tests of another process took."""
-    for path, seconds in getattr(node, "workeroutput", {}).get("taken", {}).items():
+    output = getattr(node, "workeroutput", {})
+    for path, seconds in output.get("taken", {}).items():
         _taken.setdefault(path, []).extend(seconds)
+    for path, seconds in output.get("full", {}).items():
+        _full[path] = _full.get(path, 0.0) + seconds
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if sum(map(len, _taken.values())) < WHOLE:
         return
-    spent = {path: sum(seconds) for path, seconds in _taken.items()}
+    spent = _full if sweeps.ALL else {path: sum(seconds) for path, seconds in _taken.items()}
     whole = sum(spent.values())
     dearest = sorted(spent, key=lambda path: -spent[path])[:5]
     terminalreporter.write_line(f"most expensive files: {', '.join(f'{path} {spent[path]:.1f}' for path in dearest)}")
-    if not sweeps.ALL:
+    if sweeps.ALL:
+        budget, line = FULL_BUDGET, f"all tests: {whole:.0f} processor seconds (budget {FULL_BUDGET})"
+    else:
         whole += _collected
-        above = whole > BUDGET
-        line = f"quick tests: {whole:.0f} processor seconds (budget {BUDGET} each half)"
-        terminalreporter.write_line(line, bold=above, red=above)
+        budget, line = BUDGET, f"quick tests: {whole:.0f} processor seconds (budget {BUDGET} each half)"
+    terminalreporter.write_line(line, bold=whole > budget, red=whole > budget)
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
     if hasattr(session.config, "workeroutput"):
-        session.config.workeroutput["taken"] = _taken
+        session.config.workeroutput |= {"taken": _taken, "full": _full}
         return
-    if session.exitstatus != pytest.ExitCode.OK or sum(map(len, _taken.values())) < WHOLE:
+    if sweeps.ALL or session.exitstatus != pytest.ExitCode.OK or sum(map(len, _taken.values())) < WHOLE:
         return
     whole = sum(map(sum, _taken.values()))
     if dear := [path for path, seconds in _taken.items() if sum(seconds) > SHARE * whole]:
@@ -202,6 +210,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 _taken: dict[str, list[float]] = {}
+_full: dict[str, float] = {}
 _collected = 0.0
 
 

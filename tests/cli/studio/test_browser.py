@@ -193,34 +193,36 @@ def test_numbers_follow_soon(
     window: Browser, tmp_path: Path, name: str, key: str, start: float, step: float, result: str, limit: float
 ) -> None:
     """From the input to the number on the page [ms]. A quiet machine holds the limit; others are given four times as
-    long, and what messages between the same processes wait for the processor, found by requests for a file in between:
-    5 ms each on a quiet machine, and the number's way has a few such waits."""
+    long, and as many times that as a loop of this process takes longer than its processor time just then."""
     path = tmp_path / f"{name}.yaml"
     path.write_text(FEED if name == "feed" else (DESIGNS / path.name).read_text(encoding="utf-8"))
     with _opened(window, path) as page:
         page.rests()
         window.run(
-            "window.taken = [], window.trips = [];"
+            "window.taken = [];"
             "const number = document.querySelector(`[data-quantity=${arguments[0]}]`);"
             "new MutationObserver(() => { if (window.begun) taken.push(performance.now() - begun); window.begun = 0; })"
             ".observe(number, {childList: true, characterData: true, subtree: true});",
             result,
         )
+        slower = []
         for k in range(20):
             window.run("window.begun = performance.now()")
             page.put(f'[data-slider="{key}"]', start + step * (k + 1))
             time.sleep(0.12)
             window.wait("return window.begun === 0")
-            window.run(
-                "const begun = performance.now();"
-                "fetch(document.querySelector('script[src]').src, {cache: 'no-store'})"
-                ".then(() => trips.push(performance.now() - begun))"
-            )
-            time.sleep(0.06)
-        taken, trips = window.run("return [taken, trips]")
+            slower.append(_slower())
+        taken = window.run("return taken")
     assert len(taken) == 20
-    assert len(trips) >= 15
-    assert statistics.median(taken) < 4.0 * limit + 4.0 * statistics.median(trips), (taken, trips)
+    assert statistics.median(taken) < 4.0 * limit * statistics.median(slower), (taken, slower)
+
+
+def _slower() -> float:
+    """How many times longer 30 ms of the processor take on this machine, with all that it does besides."""
+    begun, used = time.monotonic(), time.process_time()
+    while time.process_time() < used + 0.03:
+        pass
+    return (time.monotonic() - begun) / (time.process_time() - used)
 
 
 def test_field_undo_save_and_what_cannot_be(window: Browser, tmp_path: Path) -> None:
@@ -332,6 +334,8 @@ def test_other_kinds_are_dragged_and_wished(
         page.until(lambda: float(page.quantities()[result].split()[0]) == pytest.approx(target, rel=2e-4))
         changed = {name for name, value in page.numbers().items() if value != before[name]}
         assert changed == {key}
+        page.until(lambda: f" with {key} " in page.text("#note"))  # comes last, and would hide "written"
+        window.wait("return document.querySelector('[data-action=save]:not([disabled])')")
         page.click("[data-action=save]")
         page.until(lambda: "written" in page.text("#note"))
         assert path.read_text() != (DESIGNS / path.name).read_text()
