@@ -69,6 +69,12 @@ function filmPlayer(root, DATA) {
     if (halo) { pen.strokeStyle = halo; pen.lineWidth = 4; pen.strokeText(text, x, y); }
     pen.fillStyle = color; pen.fillText(text, x, y);
   }
+  function letter(text, x, y, color, halo) {  // within the picture, at its edge as well
+    pen.font = letters + "px sans-serif";
+    const half = pen.measureText(text).width / 2 + 2, tall = 0.65 * letters;
+    words(text, Math.max(half, Math.min(DATA.width - half, x)), Math.max(tall, Math.min(DATA.height - tall, y)),
+      letters, color, "center", "middle", halo);
+  }
   const draw = {
     line(part) {
       pen.setLineDash(part.dashed ? [7, 7] : []);
@@ -148,12 +154,11 @@ function filmPlayer(root, DATA) {
     const away = letters / DATA.text;
     for (const part of DATA.parts)
       if (part.label)
-        words(part.label, part.p[2 * i] + part.shift[0], part.p[2 * i + 1] + part.shift[1], letters, part.color,
-          "center", "middle", part.fill || "#ffffff");
+        letter(part.label, part.p[2 * i] + part.shift[0], part.p[2 * i + 1] + part.shift[1], part.color,
+          part.fill || "#ffffff");
     for (const m of DATA.marks)
       if (m.text && m.p[2 * i] !== null)
-        words(m.text, m.p[2 * i] + away * m.shift[0], m.p[2 * i + 1] + away * m.shift[1], letters, "#222222",
-          "center", "middle", "#ffffff");
+        letter(m.text, m.p[2 * i] + away * m.shift[0], m.p[2 * i + 1] + away * m.shift[1], "#222222", "#ffffff");
     keysAndFaults(i);
   }
 
@@ -162,12 +167,27 @@ function filmPlayer(root, DATA) {
   function across(x) { return sides.left + (x - chart.x[0]) / (chart.x[1] - chart.x[0]) * (sides.right - sides.left); }
   function upwards(y) { return sides.bottom - (y - chart.y[0]) / (chart.y[1] - chart.y[0]) * (sides.bottom - sides.top); }
   function grid(p, color) { path(p); pen.strokeStyle = color; pen.lineWidth = 1; pen.stroke(); }
+  const dashes = [[], [7, 3], [2, 2.5], [9, 3, 2, 3]];  // curves differ in more than their colour
+  function keyPlaces() {  // of the names of the curves, from the right, in as many rows as they need
+    pen.font = "12px sans-serif";
+    let x = sides.right, row = 0, first = sides.left + pen.measureText(chart.ylabel).width + 12;
+    const last = chart.curves.length - 1, found = [];
+    chart.curves.slice().reverse().forEach((curve, k) => {
+      const long = pen.measureText(curve.label).width + 22;
+      if (x - long < (row ? sides.left : first) && x < sides.right) { row++; x = sides.right; }
+      found[last - k] = { x, row, long };
+      x -= long + 10;
+    });
+    return found;
+  }
   function showStrip(i) {
     if (!chart) return;
     const finer = window.devicePixelRatio || 1, wide = strip.width / finer, high = strip.height / finer;
-    Object.assign(sides, { left: 52, right: wide - 14, top: 20, bottom: high - 32 });
+    Object.assign(sides, { left: 52, right: wide - 14, bottom: high - 32 });
     pen = strip.getContext("2d");
     pen.setTransform(finer, 0, 0, finer, 0, 0);
+    const keys = chart.curves.length > 1 ? keyPlaces() : [];
+    sides.top = 20 + 14 * Math.max(0, ...keys.map(key => key.row));
     pen.fillStyle = "#ffffff"; pen.fillRect(0, 0, wide, high);
     for (const band of chart.bands) {
       const from = across(band.start), to = across(band.end);
@@ -186,11 +206,13 @@ function filmPlayer(root, DATA) {
     pen.beginPath(); pen.rect(sides.left, sides.top - 2, sides.right - sides.left, sides.bottom - sides.top + 4); pen.clip();
     for (const of of [ghost && ghost.chart, chart]) {
       pen.globalAlpha = of === chart ? 1 : .3;
-      for (const curve of of ? of.curves : []) {
+      (of ? of.curves : []).forEach((curve, n) => {
         path(curve.x.flatMap((x, k) => [across(x), upwards(curve.y[k])]));
+        pen.setLineDash(dashes[n % dashes.length]);
         pen.strokeStyle = curve.color; pen.lineWidth = 2; pen.stroke();
-      }
+      });
     }
+    pen.setLineDash([]);
     pen.restore();
     pen.font = "11px sans-serif";
     chart.bands.forEach((band, k) => {  // over the curves, which a band's name would be crossed by
@@ -203,13 +225,13 @@ function filmPlayer(root, DATA) {
     for (const curve of chart.curves)
       disc(across(chart.now[i]), upwards(curve.now[i]), 4.5, curve.color, "#ffffff", 1);
     words(chart.xlabel, (sides.left + sides.right) / 2, sides.bottom + 17, 12, "#222222", "center", "top");
-    words(chart.ylabel, sides.left, sides.top - 6, 12, "#222222", "left", "alphabetic");
-    let x = sides.right;
-    if (chart.curves.length > 1)
-      for (const curve of chart.curves.slice().reverse()) {
-        words(curve.label, x, sides.top - 6, 12, curve.color, "right", "alphabetic");
-        x -= pen.measureText(curve.label).width + 14;
-      }
+    words(chart.ylabel, sides.left, 14, 12, "#222222", "left", "alphabetic");
+    keys.forEach(({ x, row, long }, k) => {
+      const y = 14 + 14 * row, curve = chart.curves[k];
+      words(curve.label, x, y, 12, curve.color, "right", "alphabetic");
+      path([x - long, y - 4, x - long + 18, y - 4]); pen.setLineDash(dashes[k % dashes.length]);
+      pen.strokeStyle = curve.color; pen.lineWidth = 2; pen.stroke(); pen.setLineDash([]);
+    });
   }
   function show(i) {
     showStage(i); showStrip(i);

@@ -71,6 +71,11 @@ class Stage:
         return 0.0 if self.bare else 3.9 * self.text_size
 
     @property
+    def _edge(self) -> float:
+        """About the mechanism: without a head letters that stand above it need more."""
+        return (1.7 if self.bare else 0.9) * self.text_size
+
+    @property
     def _foot(self) -> float:
         """Below the keys of arrows."""
         return (
@@ -82,7 +87,7 @@ class Stage:
     @property
     def room(self) -> Box:
         """The room of the mechanism, above the keys of arrows."""
-        edge = 0.9 * self.text_size
+        edge = self._edge
         return Box(edge, self.head + edge, self.width - edge, self._foot - _ROW * self.text_size * len(self.scene.keys))
 
     @property
@@ -109,7 +114,7 @@ class Stage:
     def needed_height(self) -> int:
         """Height of a picture of this width that the mechanism fills, from a third of the width on [pixels]."""
         left, right, low, high = self._extent
-        edge = 1.8 * self.text_size
+        edge = 2.0 * self._edge
         return round(max((high - low) * (self.width - edge) / (right - left) + edge + self.head, self.width / 3.0))
 
     @cached_property

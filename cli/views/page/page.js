@@ -29,16 +29,23 @@ function linkSheet(sheet) {
       const of = text.getBoundingClientRect();
       return [of.left - box.left, of.top - box.top, of.right - box.left, of.bottom - box.top].map(side => side * scale);
     });
+    // Of its curves as well: a point every few units.
+    chart.points ??= chart.curves.flatMap(curve => curve.x.map((x, k) => [place(chart, x), level(chart, curve.y[k])]))
+      .filter(point => isFinite(point[1]));
     const sides = [at + 4, at - 4 - wide], places = [];
     if (at > (chart.box[0] + chart.box[2]) / 2) sides.reverse();
     sides.push(Math.max(chart.box[0] + 2, Math.min(at + 4, chart.box[2] - wide - 2)));  // across the line where words are long
-    for (const left of sides)
+    for (const left of sides) {
+      const crossed = chart.points.filter(([x]) => x > left && x < left + wide).map(([, y]) => y);
+      const each = wide / Math.max(crossed.length, 1) * high;  // a curve all along the words hides them all
       for (let top = chart.box[1]; top + high <= chart.box[3]; top += 3) {
         const past = Math.max(0, left + wide - chart.box[2]) + Math.max(0, chart.box[0] - left);
         const hidden = labels.reduce((sum, [l, t, r, b]) =>
           sum + Math.max(0, Math.min(r, left + wide) - Math.max(l, left)) * Math.max(0, Math.min(b, top + high) - Math.max(t, top)), 0);
-        places.push([left, top, hidden + past * high]);
+        const met = crossed.filter(y => y > top - 1 && y < top + high + 1).length;
+        places.push([left, top, hidden + past * high + met * each * chart.curves.length]);
       }
+    }
     places.sort((one, other) => one[2] - other[2]);
     return places[0] ?? [sides[0], chart.box[1]];
   }

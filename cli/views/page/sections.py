@@ -267,7 +267,8 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Itera
 
     def cells(tag: str, row: Sequence[str]) -> str:
         return "".join(
-            f"<{tag}{' class=n' if i in right else ''}>{_broken(cell)}</{tag}>" for i, cell in enumerate(row)
+            f"<{tag}{' class=n' if i in right and not _SENTENCE.search(cell) else ''}>{_broken(cell)}</{tag}>"
+            for i, cell in enumerate(row)
         )
 
     lines = [f"<tr{f' class={row[0]}' if marked else ''}>{cells('td', row)}</tr>" for row in rows]
@@ -276,6 +277,8 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Itera
     return f'<div class="scroll"><table{many}>{head}<tbody>\n{body}</tbody></table></div>'
 
 
+_SENTENCE = re.compile(r"[a-z]{2,}[^a-z]+[a-z]{2,}.{12}")
+"""Words in a column of numbers that need several lines."""
 _LEAST, _MOST_POINTS = 25, 361
 """A line of fewer points is no curve; a curve is given by at most so many."""
 _HEAD = re.compile(r"^.*?(?=<svg )", re.DOTALL)

@@ -219,3 +219,67 @@ def test_on_paper_the_film_is_a_still_picture(window: Browser, pages: Path) -> N
         assert [window.run(shown.format(each))[0] for each in (".controls", ".strip")] == ["none", "none"]
     finally:
         window.media("")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [1280, 390])
+def test_words_of_a_machine_lie_within_its_picture(window: Browser, tmp_path: Path, width: int) -> None:
+    """The names of the members in the top row were cut through, at either width; those of curves ran over the left end.
+
+    What is written on a canvas is recorded with its box in pixels of the canvas.
+    """
+    from gearlink.cli.commands.report import run_report
+    from gearlink.cli.options import Options
+
+    spec = str(Path(__file__).parents[3] / "designs/sheet_press.yaml")
+    assert run_report(spec, Options(out=tmp_path, quiet=True)) == 0
+    window.size(width, 900)
+    window.open(tmp_path / "sheet-press.html")
+    window.run("""window.written = [];
+        const old = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            const m = this.measureText(text), at = this.getTransform(), k = at.a;
+            window.written.push([this.canvas.className, text,
+                at.e + k * (x - m.actualBoundingBoxLeft), at.f + k * (y - m.actualBoundingBoxAscent),
+                at.e + k * (x + m.actualBoundingBoxRight), at.f + k * (y + m.actualBoundingBoxDescent),
+                this.canvas.width, this.canvas.height]);
+            return old.call(this, text, x, y);
+        };
+        document.querySelector('#on').click();""")
+    written = window.run("return window.written")
+    assert {"suckers", "jogger"} <= {text for name, text, *_ in written if name == "stage"}
+    assert {"suckers", "jogger"} <= {text for name, text, *_ in written if name == "strip"}
+    for _, text, left, top, right, bottom, wide, high in written:
+        assert -1.0 <= left <= right <= wide + 1.0, text
+        assert -1.0 <= top <= bottom <= high + 1.0, text
+    long = "[...document.querySelectorAll('.results table')].map(t => t.offsetWidth - t.parentElement.offsetWidth)"
+    if width > 1000:
+        assert max(window.run(f"return {long}")) <= 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_what_a_cursor_says_keeps_clear_of_the_curves(window: Browser, pages: Path, share: float) -> None:
+    """Of the panels that leave room; points of curves in the box of the words."""
+    window.size(1280, 900)
+    window.open(pages / "candy-feed.html")
+    hidden = window.run(
+        """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
+        svg.scrollIntoView({block: 'end'});
+        const charts = JSON.parse(sheet.querySelector('script.charts').textContent), chart = charts[charts.length - 1];
+        cursors.say(chart.over, chart.x[0] + arguments[0] * (chart.x[1] - chart.x[0]), null);
+        const outer = svg.getBoundingClientRect();
+        const scale = outer.width / Number(svg.getAttribute('viewBox').split(' ')[2]);
+        const boxes = [...svg.querySelectorAll('.cursor text')].map(each => each.getBoundingClientRect());
+        const inside = each => each.curves.map(curve => curve.x.filter((x, k) => {
+            const [a, b, c, d] = each.box;
+            const at = outer.left + scale * (a + (x - each.x[0]) / (each.x[1] - each.x[0]) * (c - a));
+            const up = outer.top + scale * (d - (curve.y[k] - each.y[0]) / (each.y[1] - each.y[0]) * (d - b));
+            return boxes.some(box => box.left < at && at < box.right && box.top < up && up < box.bottom);
+        }).length).reduce((sum, one) => sum + one, 0);
+        return charts.filter(each => each.over === chart.over).map(inside);""",
+        share,
+    )
+    assert len(hidden) >= 3
+    assert sorted(hidden)[len(hidden) // 2] == 0
+    assert sum(hidden) < 20 * len(hidden)
