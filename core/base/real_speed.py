@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 OUTPUT_SPEEDS = ("output_speed_max", "output_speed_min", "output_acceleration_max", "output_acceleration_min")
 SLIDER_SPEEDS = ("slider_velocity_max", "slider_velocity_min", "slider_acceleration_max", "slider_acceleration_min")
 _MILLISECONDS = 1000.0
-_OF_TIME = {0: "", 1: "/s", 2: "/s^2", 3: "/s^3"}
+OF_TIME = {0: "", 1: "/s", 2: "/s^2", 3: "/s^3"}
 
 
 def per_time(path: str, order: int) -> Any:
@@ -82,7 +82,7 @@ class RealSpeed:
         for name, (column, order) in rates.items():
             data, unit = columns[column]
             measure = "mm" if unit.startswith("mm") else "rad"
-            found[name] = (_scaled(data, speed**order), measure + _OF_TIME[order])
+            found[name] = (_scaled(data, speed**order), measure + OF_TIME[order])
         return {**columns, **found}
 
 

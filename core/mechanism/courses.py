@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearlink.core.base.real_speed import OF_TIME
 from gearlink.core.base.report import Table
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.mechanism.motion import Course, Motion
@@ -78,6 +79,15 @@ class Shown(NamedTuple):
     timed: str = ""
 
 
+def of_output(course: Course, angle: str = "output_angle", speed: str = "output") -> list[Shown]:
+    """Angle, speed and acceleration of a course, as what comes out of the mechanism."""
+    return [
+        Shown(angle, course),
+        Shown("speed_ratio", course, 1, f"{speed}_speed"),
+        Shown("acceleration_ratio", course, 2, f"{speed}_acceleration"),
+    ]
+
+
 def all_rates(names: Mapping[str, Course]) -> list[Shown]:
     """Angle, speed, acceleration and jerk of every course, as columns `NAME_angle`, `NAME_speed_ratio` and so on."""
     found: list[Shown] = []
@@ -89,8 +99,12 @@ def all_rates(names: Mapping[str, Course]) -> list[Shown]:
     return found
 
 
-def columns_of(motion: Motion, q: Reals, shown: Iterable[Shown]) -> dict[str, tuple[Any, str]]:
-    """Columns of a table: angles in deg, lengths in mm, derivatives per rad or mm of the input."""
+def columns_of(
+    motion: Motion, q: Reals, shown: Iterable[Shown], speed: float | None = None
+) -> dict[str, tuple[Any, str]]:
+    """Columns of a table: angles in deg, lengths in mm, derivatives per rad or mm of the input, or by time where the
+    speed of the input [rad/s] is given.
+    """
     found: dict[str, tuple[Any, str]] = {}
     known: dict[Course, list[Reals]] = {}
     wanted = list(shown)
@@ -99,7 +113,9 @@ def columns_of(motion: Motion, q: Reals, shown: Iterable[Shown]) -> dict[str, tu
         if each.course not in known:
             known[each.course] = each.course.rates(motion, q, highest)
         rate = known[each.course][each.order]
-        if each.course.unit == "rad" and each.order == 0:
+        if speed is not None and each.order:
+            found[each.column] = rate * speed**each.order, each.course.unit + OF_TIME[each.order]
+        elif each.course.unit == "rad" and each.order == 0:
             found[each.column] = np.degrees(rate), "deg"
         else:
             found[each.column] = rate, unit_of(each.course.unit, each.order, motion.input.unit)
@@ -123,7 +139,13 @@ def unit_of(unit: str, order: int, per: str = "rad") -> str:
 
 
 def motion_table(
-    name: str, design: Any, shown: Sequence[Shown], samples: int | None, *, degrees: Reals | None = None
+    name: str,
+    design: Any,
+    shown: Sequence[Shown],
+    samples: int | None,
+    *,
+    degrees: Reals | None = None,
+    beside: Mapping[str, tuple[Any, str]] | None = None,
 ) -> Table:
     """A table of the motion of a design, in real time too where the speed of its input is known.
 
@@ -132,6 +154,7 @@ def motion_table(
         shown : the columns
         samples : int - rows of a revolution, 360 where none are given
         degrees : (N,) array [deg] - the inputs, where they are others than equal steps of the period
+        beside : further columns
     Raises
         NoSolution - where the mechanism does not close
     """
@@ -139,6 +162,6 @@ def motion_table(
     first = motion.input.column
     if degrees is None:
         degrees = turn_degrees(samples, motion.input.turns or 1)
-    columns = {first: (degrees, "deg"), **columns_of(motion, np.radians(degrees), shown)}
+    columns = {first: (degrees, "deg"), **columns_of(motion, np.radians(degrees), shown), **(beside or {})}
     rates = {each.timed: (each.column, each.order) for each in shown if each.timed}
     return Table.of(name, design.timed(columns, first, rates) if hasattr(design, "timed") else columns)

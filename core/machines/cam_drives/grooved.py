@@ -13,11 +13,12 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution, in_section
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either, up
-from gearlink.core.base.report import Check, Shown, Status, Table
+from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import Shown as Compared
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, within
 from gearlink.core.mechanism.closures import dyad
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import motion_table, of_output, turned
 from gearlink.core.mechanism.dual import Shift, longer
 from gearlink.core.mechanism.joints import Connection, Contact, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -198,7 +199,7 @@ class Groove:
                 if cut.depth > _CUT * self.roller_radius:
                     status, what = "fail", f"cut of the roller into the {name} wall"
                     shown, at = (
-                        Shown(cut.depth, 0.0, "mm", "<="),
+                        Compared(cut.depth, 0.0, "mm", "<="),
                         f"input angle {short(math.degrees(cut.cam_angle))} deg",
                     )
             yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=remedy)
@@ -311,18 +312,9 @@ class Grooved(RealSpeed, Design):
         """The output over a revolution of the input."""
 
         self.require_closed()
-        degrees = turn_degrees(samples)
-        theta = np.radians(degrees)
-        angle, speed, acceleration = self.output_motion.evaluate(theta, 2)
-        columns: dict[str, tuple[Any, str]] = {
-            "input_angle": (degrees, "deg"),
-            "output_angle": (np.degrees(angle), "deg"),
-            "speed_ratio": (speed, "1"),
-            "acceleration_ratio": (acceleration, "1"),
-            **self.motion_columns(theta),
-        }
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("motion", self.timed(columns, "input_angle", rates))
+        shown = of_output(self.moving.outputs[0].course)
+        beside = self.motion_columns(np.radians(turn_degrees(samples)))
+        return motion_table("motion", self, shown, samples, beside=beside)
 
     def table_main_cam(self, samples: int | None = None) -> Table:
         """The groove: path of the roller, both walls, pressure angle, curvature."""

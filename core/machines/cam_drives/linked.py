@@ -13,13 +13,13 @@ from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.courses import Shown, coordinate, motion_table
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, fixed, standing, steady
-from gearlink.core.numerics.arrays import Reals, turn_degrees
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
@@ -185,18 +185,11 @@ class LinkedCams(RealSpeed, Design):
 
     def table_path(self, samples: int | None = None) -> Table:
         """The path over the input angle, with lifts and rates."""
-        degrees = turn_degrees(samples)
-        theta = np.radians(degrees)
-        columns = {"input_angle": (degrees, "deg")}
-        for axis, name in enumerate(AXES):
-            place, speed, acceleration = self.coordinate(axis, theta, 2)
-            columns |= {
-                name: (place, "mm"),
-                f"{name}_lift": (place - self.lowest[axis], "mm"),
-                f"{name}_velocity": (speed, "mm/rad"),
-                f"{name}_acceleration": (acceleration, "mm/rad^2"),
-            }
-        return Table.of("path", self.timed(columns, "input_angle", {}))
+        shown: list[Shown] = []
+        for (name, course, _), lowest in zip(self.moving.outputs, self.lowest, strict=True):
+            shown += [Shown(name, course), Shown(f"{name}_lift", course.less(lowest))]
+            shown += [Shown(f"{name}_velocity", course, 1), Shown(f"{name}_acceleration", course, 2)]
+        return motion_table("path", self, shown, samples)
 
     def table_x_cam(self, samples: int | None = None) -> Table:
         """The cam of x."""

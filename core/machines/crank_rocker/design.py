@@ -16,7 +16,7 @@ from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import within
-from gearlink.core.mechanism.courses import Shown, all_rates, between, coordinate, motion_table, turned
+from gearlink.core.mechanism.courses import Shown, all_rates, between, coordinate, motion_table, of_output, turned
 from gearlink.core.mechanism.dual import longer
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
@@ -236,9 +236,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         return self._over(
             "motion",
             [
-                Shown("rocker_angle", course),
-                Shown("speed_ratio", course, 1, "rocker_speed"),
-                Shown("acceleration_ratio", course, 2, "rocker_acceleration"),
+                *of_output(course, "rocker_angle", "rocker"),
                 Shown("transmission_angle", between("coupler", "rocker")),
             ],
             samples,

@@ -905,14 +905,12 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a revolution of the carrier; the middle of the dwell is at carrier angle 0."""
-        from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, turned
+        from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, of_output, turned
 
         if self.spec.is_arm:
             course, place = turned("arm"), -self.arm.ratio * self.point_radius
             of_arm = [
-                Shown("output_angle", course),
-                Shown("speed_ratio", course, 1, "output_speed"),
-                Shown("acceleration_ratio", course, 2, "output_acceleration"),
+                *of_output(course),
                 Shown("x", coordinate("planet", place)),
                 Shown("y", coordinate("planet", place, 1j)),
             ]

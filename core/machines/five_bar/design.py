@@ -1070,19 +1070,12 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
 
     def table_function(self, samples: int | None = None) -> Table:
         """Output angle and speed over the range of the input, both ends included."""
+        from gearlink.core.mechanism.courses import motion_table, of_output, turned
+
         start, end = self.input_range
-        count, bar = samples or 180, self.function_bar
-        rows = row_numbers(samples, count + 1)
+        rows = row_numbers(samples, (count := samples or 180) + 1)
         angles = [start + (end - start) * i / count if i < count else end for i in rows]
-        followed = bar.output_angles([start, *angles])[1:]
-        columns = {
-            "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
-            "output_angle": ([math.degrees(angle) for angle in followed], "deg"),
-            "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
-            "acceleration_ratio": ([bar.output_acceleration(angle) for angle in angles], "1"),
-        }
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("function", self.timed(columns, "input_angle", rates))
+        return motion_table("function", self, of_output(turned("output")), samples, degrees=np.degrees(angles))
 
     def table_structural_error(self, samples: int | None = None) -> Table:
         """Output angle, what it should be, and the difference, over the interval of the function."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -63,12 +63,12 @@ from gearlink.core.parts.linkages.slider_crank import (
     SLIDER_QUANTITIES,
     SliderCrank,
     SliderCrankQuantities,
-    slider_sweep,
 )
 from gearlink.core.studies.clearance import LEAST_SHAFT_MODULES
 
 if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam
+    from gearlink.core.mechanism.courses import Shown as Column
     from gearlink.core.mechanism.motion import Course
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -532,30 +532,6 @@ def input_gears(design: FlatbedPress) -> Table:
     keys = {"input_gears.module": ("module", "mm")}
     rows, teeth = [(module,) for module in sorted(near)], {"teeth": lambda trial: trial.gear_pair.teeth[0]}
     return table(design, Sought("gear", keys, rows, _SHOWN, counted=teeth))
-
-
-def _bed_rates(design: FlatbedPress, phi: Any) -> dict[str, Any]:
-    if not design.bed_moves:
-        return {}
-    bed, speed = design.bed_motion.travel(phi), design.motion.input_speed
-    return {"bed_velocity": (bed.first * speed, "mm/s"), "bed_acceleration": (bed.second * speed**2, "mm/s^2")}
-
-
-def _from_start(input_angle: Any, values: Any) -> Any:
-    """Values that are 0 at the start by its definition: there the cam's turn begins and the bed stands at its dead
-    centre, which the directions of the links give to rounding."""
-    import numpy as np
-
-    return np.where(input_angle == 0.0, 0.0, values)
-
-
-def _transmission(linkage: FourBar, crank_angle: Any) -> Any:
-    import numpy as np
-
-    from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-    from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance
-
-    return np.degrees(dead_point_distance(fourbar_sweep.solve(linkage, crank_angle).transmission_angle))
 
 
 # The motion of a flatbed press: input, both chains, and the zone in which they run together
@@ -1318,32 +1294,40 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     def table_positions(self, samples: int | None = None) -> Table:
         """Both chains at equal input angles (TY-460 report 1.2, 2.2), and the bed with the lift of its cam."""
+        from gearlink.core.machines.flatbed_press.mechanism import bare, bed, cylinder
+        from gearlink.core.mechanism.courses import Shown, between, turned
+
+        plain, surface = bed(bare(self)), cylinder(self)
+        shown = [
+            Shown("cam_angle", turned("CDE").less(self.bed.cam_angle_start)),
+            Shown("bed_displacement", plain),
+            Shown("bed_velocity", plain, 1),
+            Shown("cylinder_displacement", surface),
+            Shown("cylinder_velocity", surface, 1),
+            Shown("transmission_angle_bed", between("BC", "CDE")),
+            Shown("transmission_angle_cylinder", between("HM", "MN")),
+        ]
+        columns = self._in_time(samples or 12, shown, bare=True)
+        if self.spec.cam is not None and self.bed_moves:
+            with_cam = bed(self)
+            shown = [Shown("compensated_displacement", with_cam), Shown("compensated_velocity", with_cam, 1)]
+            columns |= self._in_time(samples or 12, shown)
+        return Table.of("positions", columns)
+
+    def _in_time(self, samples: int | None, shown: Sequence[Column], *, bare: bool = False) -> dict[str, Any]:
+        """Columns over the input angle by time, of the press or of one without its cam."""
         import numpy as np
 
+        from gearlink.core.machines.flatbed_press import mechanism
+        from gearlink.core.mechanism.courses import columns_of
         from gearlink.core.numerics.arrays import turn_degrees
 
-        motion, degrees = self.motion, turn_degrees(samples or 12)
-        phi = np.radians(degrees)
-        cam, speed = motion.bed.cam_angle(phi, 1), motion.input_speed
-        p, q = motion.bed.travel(phi, 1, cam), motion.cylinder.travel(phi, 1)
-        columns = {
-            "input_angle": (degrees, "deg"),
-            "cam_angle": (_from_start(phi, np.degrees(cam.value)), "deg"),
-            "bed_displacement": (p.value, "mm"),
-            "bed_velocity": (_from_start(phi, p.first * speed), "mm/s"),
-            "cylinder_displacement": (q.value, "mm"),
-            "cylinder_velocity": (q.first * speed, "mm/s"),
-            "transmission_angle_bed": (_transmission(motion.bed.linkage, motion.bed.initial_crank_angle + phi), "deg"),
-            "transmission_angle_cylinder": (
-                _transmission(motion.cylinder.linkage, motion.cylinder.initial_angle - phi),
-                "deg",
-            ),
-        }
-        if self.spec.cam is not None and self.bed_moves:
-            bed = self.bed_motion.travel(phi)
-            columns["compensated_displacement"] = (bed.value, "mm")
-            columns["compensated_velocity"] = (bed.first * speed, "mm/s")
-        return Table.of("positions", columns)
+        moving, degrees = (mechanism.bare(self) if bare else self).moving, turn_degrees(samples)
+        found = columns_of(moving, np.radians(degrees), shown, self.input_speed)
+        for name in ("cam_angle", "bed_velocity") if bare else ():  # 0 at the start, which directions give to rounding
+            if name in found:
+                found[name] = np.where(degrees == 0.0, 0.0, found[name][0]), found[name][1]
+        return {"input_angle": (degrees, "deg"), **found}
 
     def table_follower(self, samples: int | None = None) -> Table:
         """Lift of the follower over the cam angle (TY-460 report 3.4)."""
@@ -1367,33 +1351,29 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
         Of a bed whose cam cannot be nothing is said.
         """
-        import numpy as np
+        from gearlink.core.machines.flatbed_press.mechanism import bed, cylinder
+        from gearlink.core.mechanism.courses import Shown, turned
 
-        from gearlink.core.numerics.arrays import turn_degrees
-        from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-
-        motion, degrees = self.motion, turn_degrees(samples)
-        phi, speed, bed, cylinder = np.radians(degrees), motion.input_speed, motion.bed, motion.cylinder
-        q = cylinder.travel(phi, 2)
-        one = fourbar_sweep.solve(bed.linkage, bed.initial_crank_angle + phi, 0)
-        other = fourbar_sweep.solve(cylinder.linkage, cylinder.initial_angle - phi, 0)
-        slider = one.rocker_angle - bed.crank_offset_angle
-        crank, rod, offset = bed.slider_crank_length, bed.rod, bed.offset
-        slider_sweep(slider, crank, rod, offset)  # refuses where the rod does not reach
-        columns = {
-            "input_angle": (degrees, "deg"),
-            "time": (degrees / 360.0 * 3.6e6 / self.spec.speed, "ms"),
-            **_bed_rates(self, phi),
-            "cylinder_velocity": (q.first * speed, "mm/s"),
-            "cylinder_acceleration": (q.second * speed**2, "mm/s^2"),
-            "BC_angle": (np.degrees(one.coupler_angle), "deg"),
-            "CD_angle": (np.degrees(one.rocker_angle), "deg"),
-            "DE_angle": (np.degrees(slider), "deg"),
-            "rod_angle": (np.degrees(np.arcsin((crank * np.cos(slider) + offset) / rod)), "deg"),
-            "HM_angle": (np.degrees(other.coupler_angle), "deg"),
-            "MN_angle": (np.degrees(other.rocker_angle), "deg"),
-        }
-        return Table.of("chains", columns)
+        half_turn = (
+            0.0 if self.spec.loads is None or self.spec.loads.bed_side > 0 else math.pi
+        )  # as gear 1 and its chain are turned there
+        rates = [("bed", bed(self))] if self.bed_moves else []
+        shown = [
+            Shown(f"{name}_{rate}", course, order)
+            for name, course in (*rates, ("cylinder", cylinder(self)))
+            for order, rate in enumerate(("velocity", "acceleration"), 1)
+        ]
+        shown += [
+            Shown("BC_angle", turned("BC")),
+            Shown("CD_angle", turned("CDE")),
+            Shown("DE_angle", turned("CDE").less(self.bed.crank_offset_angle)),
+            Shown("rod_angle", turned("EF", sense=-1.0).less(0.5 * math.pi)),
+            Shown("HM_angle", turned("HM").less(half_turn)),
+            Shown("MN_angle", turned("MN").less(half_turn)),
+        ]
+        found = self._in_time(samples, shown, bare=not self.bed_moves)
+        time = found["input_angle"][0] / 360.0 * 3.6e6 / self.spec.speed
+        return Table.of("chains", {"input_angle": found["input_angle"], "time": (time, "ms"), **found})
 
     def table_main_cam(self, samples: int | None = None) -> Table:
         """The main cam, point for point (TY-460 report 3.5)."""

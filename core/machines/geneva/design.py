@@ -19,7 +19,7 @@ from gearlink.core.base.report import Check, Status, Table, safely_below, withou
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import motion_table, of_output, turned
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.mechanism.joints import NEWTON_METER, Connection, Pin, SharedContact
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -593,21 +593,17 @@ class GenevaDrive(RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The wheel over a revolution of the crank from a pin on the line of centres."""
-        degrees = turn_degrees(samples)
-        phi = np.radians(degrees)
-        (angle, speed, acceleration), moves, pin = self.drive.over(phi, 2)
-        columns: dict[str, tuple[Any, str]] = {
-            "crank_angle": (degrees, "deg"),
-            "wheel_angle": (np.degrees(angle), "deg"),
-            "speed_ratio": (speed, "1"),
-            "acceleration_ratio": (acceleration, "1"),
-        }
+        beside: dict[str, tuple[Any, str]] = {}
         if self._torque is not None:
+            phi = np.radians(turn_degrees(samples))
+            _, moves, pin = self.drive.over(phi, 0)
             force, torque = self.forces(phi - pin * (TURN / self.spec.pins))
-            columns["contact_force"] = np.where(moves, force, 0.0), "N"
-            columns["input_torque"] = np.where(moves, torque, 0.0), "N m"
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("motion", self.timed(columns, "crank_angle", rates))
+            beside = {
+                "contact_force": (np.where(moves, force, 0.0), "N"),
+                "input_torque": (np.where(moves, torque, 0.0), "N m"),
+            }
+        shown, degrees = of_output(wheel_course(self.drive), "wheel_angle"), turn_degrees(samples)
+        return motion_table("motion", self, shown, samples, degrees=degrees, beside=beside)
 
     def require_table(self, name: str, /) -> None:
         """A comparison needs the other design."""

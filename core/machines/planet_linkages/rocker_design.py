@@ -380,13 +380,11 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
     def table_motion(self, samples: int | None = None) -> Table:
         """Rocker and output over a revolution of the crank; the output angle counts from its place at crank angle 0."""
         from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
-        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, of_output, turned
 
         shown = [
             Shown("rocker_angle", turned("rocker")),
-            Shown("output_angle", OUTPUT),
-            Shown("speed_ratio", OUTPUT, 1, "output_speed"),
-            Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+            *of_output(OUTPUT),
             Shown("transmission_angle", between("coupler", "rocker")),
         ]
         return motion_table("motion", self, shown, samples)

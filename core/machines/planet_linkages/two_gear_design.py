@@ -362,12 +362,10 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, coupler speed and transmission angle over a revolution of the crank."""
         from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
-        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, of_output, turned
 
         shown = [
-            Shown("output_angle", OUTPUT),
-            Shown("speed_ratio", OUTPUT, 1, "output_speed"),
-            Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+            *of_output(OUTPUT),
             Shown("coupler_ratio", turned("coupler"), 1, "coupler_speed"),
             Shown("transmission_angle", between("coupler", "rocker")),
         ]

@@ -647,13 +647,11 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     def table_motion(self, samples: int | None = None) -> Table:
         """Directions of all links, speed and acceleration of the output, transmission angle."""
         from gearlink.core.machines.six_bar.mechanism import output, transmission
-        from gearlink.core.mechanism.courses import Shown, motion_table, turned
+        from gearlink.core.mechanism.courses import Shown, motion_table, of_output, turned
 
         course = output(self)
         shown = [
-            Shown("output_angle", course),
-            Shown("speed_ratio", course, 1, "output_speed"),
-            Shown("acceleration_ratio", course, 2, "output_acceleration"),
+            *of_output(course),
             *(Shown(f"{name}_angle", turned(name)) for name in LINKS[2:5]),
             Shown("transmission_angle", transmission(self)),
         ]

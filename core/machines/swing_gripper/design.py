@@ -1288,30 +1288,23 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Angles, velocities and accelerations of both rockers over the turn."""
-        degrees, motion = self.motion.rows(samples, 3)
-        speed, square = self.motion.shaft_speed, self.motion.shaft_speed**2
-        columns = {
-            "theta": (degrees, "deg"),
-            "beta": (np.degrees(motion.beta), "deg"),
-            "input_angle": (np.degrees(motion.input_angle), "deg"),
-            "coupler_angle": (np.degrees(motion.coupler_angle), "deg"),
-            "output_angle": (np.degrees(motion.output_angle), "deg"),
-            "input_velocity": (motion.input_velocity * speed, "rad/s"),
-            "output_velocity": (motion.output_velocity * speed, "rad/s"),
-            "input_acceleration": (motion.input_acceleration * square, "rad/s^2"),
-            "output_acceleration": (motion.output_acceleration * square, "rad/s^2"),
-            "coupler_velocity": (motion.coupler_velocity * speed, "rad/s"),
-            "coupler_acceleration": (motion.coupler_acceleration * square, "rad/s^2"),
-            "input_jerk": (motion.input_jerk * speed**3, "rad/s^3"),
-        }
-        return Table.of("motion", columns)
+        from gearlink.core.machines.swing_gripper.mechanism import swing, without_cams
+        from gearlink.core.mechanism.courses import Shown, columns_of, turned
+
+        degrees, links = turn_degrees(samples), {name: turned(name) for name in ("input", "coupler", "output")}
+        shown = [Shown("beta", swing(self)), *(Shown(f"{name}_angle", course) for name, course in links.items())]
+        rates = [("input", 1), ("output", 1), ("input", 2), ("output", 2), ("coupler", 1), ("coupler", 2), ("input", 3)]
+        names = ("angle", "velocity", "acceleration", "jerk")
+        shown += [Shown(f"{link}_{names[order]}", links[link], order) for link, order in rates]
+        found = columns_of(without_cams(self), np.radians(degrees), shown, self.motion.shaft_speed)
+        return Table.of("motion", {"theta": (degrees, "deg"), **found})
 
     def table_newton(self, samples: int | None = None) -> Table:
         """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
         from gearlink.core.machines.swing_gripper.linkage import closed_form_error
 
         degrees, loop = self.motion.loop_at(samples)
-        _, motion = self.motion.rows(samples)
+        motion = self.linkage.motion(degrees)
         columns = {
             "theta": (degrees, "deg"),
             "deviation": (np.degrees(loop.deviation), "deg"),

@@ -14,7 +14,7 @@ from gearlink.core.base.wording import unlike, within
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases
-    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion, TwoWays
+    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, TwoWays
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.laws import Law
@@ -237,13 +237,6 @@ class Motion:
                 "frame length is 0 mm: cam rocker and gripper turn about axes of their own, move one of them",
                 key="pivots",
             )
-
-    def rows(self, samples: int | None = None, order: int = 2) -> tuple[Reals, GripperMotion]:
-        """Cylinder angles in degrees and the motion there, for the tables."""
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees = turn_degrees(samples)
-        return degrees, self.linkage.motion(degrees, order)
 
     @cached_property
     def extremes(self) -> dict[str, float]:

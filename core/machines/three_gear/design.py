@@ -392,12 +392,10 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, transmission angle over a revolution of the crank."""
         from gearlink.core.machines.three_gear.mechanism import OUTPUT
-        from gearlink.core.mechanism.courses import Shown, between, motion_table
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, of_output
 
         shown = [
-            Shown("output_angle", OUTPUT),
-            Shown("speed_ratio", OUTPUT, 1, "output_speed"),
-            Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+            *of_output(OUTPUT),
             Shown("transmission_angle", between("coupler", "rocker")),
         ]
         return motion_table("motion", self, shown, samples)
