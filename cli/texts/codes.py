@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -351,7 +350,7 @@ def key_of(data: dict[str, Any], check: Check) -> str:
     if member := _member(data, check):
         design = f"members.{member}.design"
         remedy = tuple((key.removeprefix(f"{design}."), value) for key, value in check.remedy)
-        own = replace(check, what=check.what.removeprefix(f"{member}: "), remedy=remedy)
+        own = check._replace(what=check.what.removeprefix(f"{member}: "), remedy=remedy)
         return f"{design}.{key_of(data['members'][member]['design'], own)}"
     known = explanations().get(check.code)
     # The keys of a remedy may stand anywhere: what is about to be changed is not what the finding is about.

@@ -73,8 +73,7 @@ _MOST_CHARACTERS = 240
 """Of a message, before its fix."""
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(NamedTuple):
     """One finding: `status` follows from comparing `value` with `limit`; the message is formed from its parts.
 
     WHAT: value unit (limit op limit unit; aside) at PLACE

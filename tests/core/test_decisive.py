@@ -81,7 +81,9 @@ def _checked(made: Design, command: str) -> str:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "count"), [("slider-crank", 60), ("wide-swing-cam", 24), ("machine", 16)])
+@pytest.mark.parametrize(
+    ("kind", "count"), [("slider-crank", 60), ("three-gear-four-bar", 60), ("wide-swing-cam", 24), ("machine", 16)]
+)
 def test_what_require_leaves_out_refuses_nothing(kind: str, count: int) -> None:
     draw, files, refused = random.Random(11), _files(kind), 0
     for _ in range(count):
@@ -100,7 +102,14 @@ def test_what_require_leaves_out_refuses_nothing(kind: str, count: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "command"), [("machine", "loads"), ("wide-swing-cam", "swing"), ("wide-swing-cam", "analyze")]
+    ("kind", "command"),
+    [
+        ("machine", "loads"),
+        ("wide-swing-cam", "swing"),
+        ("wide-swing-cam", "analyze"),
+        ("slider-crank", "analyze"),
+        ("three-gear-four-bar", "analyze"),
+    ],
 )
 def test_extremes_and_runs_are_left_out(kind: str, command: str) -> None:
     """Of what the class says that refuses nothing, `require` asks for nothing."""
@@ -110,3 +119,11 @@ def test_extremes_and_runs_are_left_out(kind: str, command: str) -> None:
     assert made.derived & set(shown), "nothing to leave out"
     assert not asked & made.derived
     assert asked
+
+
+@pytest.mark.parametrize("fed", [True, False])
+def test_what_a_file_without_a_feed_has_not_is_not_asked_for(fed: bool) -> None:
+    data = next(data for data in _files("three-gear-four-bar") if ("feed" in data) is fed)
+    kind = KINDS["three-gear-four-bar"]
+    made = kind.design("analyze", kind.spec_model().model_validate_json(json.dumps(data)))
+    assert ("feed_per_turn" in made.decisive("analyze")) is fed

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import replace
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
@@ -64,7 +63,7 @@ def _with(design: Design, bench: Bench, found: Check, index: int) -> Check:
     left = bench.warnings_left(remedy, found, index)
     notes = (f"warnings that remain: {', '.join(left)}",) if left else ()
     relaxes = design.asks_less(key for key, _ in remedy)
-    return replace(found, remedy=remedy, relaxes=relaxes, note=(*found.note, *notes))
+    return found._replace(remedy=remedy, relaxes=relaxes, note=(*found.note, *notes))
 
 
 class Bench:

@@ -477,7 +477,7 @@ class PressTeeth:
         if spec.bed.pinion is not None:
             with in_section("bed.pinion"):
                 for found in self.pinion.checks(name, spec.limits):
-                    yield replace(found, what=f"{PINION}: {found.what}")
+                    yield found._replace(what=f"{PINION}: {found.what}")
 
     def check_racks(self) -> Iterator[Check]:
         """GL346: teeth of both racks against what the travel takes."""

@@ -171,7 +171,7 @@ class OfMembers(Design):
 def of_member(member: str, found: Check) -> Check:
     """A finding of a member as one of the machine."""
     remedy = tuple((f"members.{member}.design.{key}", value) for key, value in found.remedy)
-    return replace(found, what=f"{member}: {found.what}", remedy=remedy)
+    return found._replace(what=f"{member}: {found.what}", remedy=remedy)
 
 
 class Machine(OfMembers):

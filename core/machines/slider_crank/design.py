@@ -94,7 +94,9 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         "analyze": Outline((*_SIZES, *FOUND, *_MOTION, *RACKS), ("transmission-angle", *RACK_CHECKS), ("motion",)),
     }
     extra_tables = ("candidates",)
-    derived = frozenset((*names("velocity", "acceleration"), *SLIDER_SPEEDS))
+    derived = frozenset(
+        (*names("velocity", "acceleration"), *SLIDER_SPEEDS, "input_speed", "turn_time", "forward_time", "return_time")
+    )
     requirements = Design.requirements | {"stroke", "quick_return_ratio"}
     ways = {
         "transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"), down("quick_return_ratio"))

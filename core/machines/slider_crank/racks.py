@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, model_validator
@@ -130,7 +130,7 @@ class RackDrive:
             with in_section("racks"):
                 for found in mesh.checks(name, limits):
                     what = found.what if alike else f"{found.what} ({rack.replace('_', ' ')})"
-                    yield replace(found, what=what)
+                    yield found._replace(what=what)
             if alike:
                 return
 

@@ -105,6 +105,16 @@ CHECKS = (
     "lay-speed",
     *MESH_CHECKS,
 )
+_OF_OTHERS = frozenset(
+    (
+        *(name for name in QUANTITIES if name.endswith(("_ratio_max_at", "_ratio_min_at", "_time"))),
+        *OUTPUT_SPEEDS,
+        "input_speed",
+        "dwell_angle_approximate",
+        "tolerance_dwell_start",
+    )
+)
+"""What is read off, or scaled from, quantities that are shown as well."""
 MESHES = ("crank_idler", "idler_output")
 MESH_QUANTITIES = named(MESHES)
 
@@ -147,6 +157,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
 
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
+    derived = Meshed.derived | _OF_OTHERS
     keys = {
         "analyze": (
             "motion",

@@ -10,7 +10,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -121,7 +120,7 @@ def _drive(design: WideSwingDesign, cam: Axis) -> Iterator[Check]:
 
     room = bar.frame - _disc_radius(design)
     for check in over_axis_check(SHAFT_CLEARANCE, "cam", room, roller, "the crank's axis", advice):
-        yield replace(check, name=CHECK)
+        yield check._replace(name=CHECK)
 
 
 def _disc_radius(design: WideSwingDesign) -> float:

@@ -295,12 +295,12 @@ def pair_check(
     if name in DRAWING_CHECKS or name == TRUE_FILLET.name:
         before = before_mesh(mesh)
         found = drawing_check(name, data, limits, radial=radial)
-        return [replace(check, what=before + check.what) if before else check for check in found]
+        return [check._replace(what=before + check.what) if before else check for check in found]
     if name == CONTACT_RATIO.name and (helical := helical_contact(data, limits)):
         return [helical]
     checks = list(gear_check(name, data.pair, limits, mesh, shifts, data.roles))
     if name == INTERFERENCE.name:
-        checks += [replace(check, what=before_mesh(mesh) + check.what) for check in tip_beyond_cutter(data)]
+        checks += [check._replace(what=before_mesh(mesh) + check.what) for check in tip_beyond_cutter(data)]
     return checks
 
 

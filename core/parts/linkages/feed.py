@@ -7,7 +7,7 @@ speed ratio W, a minimum of W between them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Design, Outline
@@ -42,6 +42,8 @@ FEED_QUANTITIES = (
     "lay_time",
     "arrival_speed",
 )
+
+_ALL = frozenset(FEED_QUANTITIES)
 
 
 def feed_radius(feed: Feed) -> float:
@@ -78,6 +80,11 @@ class FeedResults(RealSpeed, Design):
 
     mean_ratio: Any
     back_step_angle: Any
+
+    def decisive(self, command: str) -> Iterable[str]:
+        """Those of a feed only where the file has one."""
+        found = super().decisive(command)
+        return found if self.spec.feed is not None else (name for name in found if name not in _ALL)
 
     @property
     def travel_radius(self) -> float | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import shutil
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -261,8 +260,8 @@ def test_of_a_section_it_is_the_key_that_the_remedy_changes() -> None:
     data = {"links": {"crank": 23.6, "frame": 86.2}, "gears": {"idler": 44}}
     missed = Check("GL313", "dwell-window", "fail", "too short")
     assert key_of(data, missed) == "links"
-    assert key_of(data, replace(missed, remedy=(("links.frame", 90.0),))) == "links.frame"
-    assert key_of(data, replace(missed, remedy=(("gears.idler", 43),))) == "links"
+    assert key_of(data, missed._replace(remedy=(("links.frame", 90.0),))) == "links.frame"
+    assert key_of(data, missed._replace(remedy=(("gears.idler", 43),))) == "links"
 
 
 def test_of_a_machine_it_is_the_key_of_the_member_or_the_relation() -> None:
@@ -273,7 +272,7 @@ def test_of_a_machine_it_is_the_key_of_the_member_or_the_relation() -> None:
     }
     poor = Check("GL303", "transmission-angle", "fail", "feed: minimum transmission angle")
     assert key_of(data, poor) == "members.feed.design.links"
-    assert key_of(data, replace(poor, code="GL531", what="feed: input_speed")) == "members.feed.design.input_speed"
+    assert key_of(data, poor._replace(code="GL531", what="feed: input_speed")) == "members.feed.design.input_speed"
     assert (
         key_of(data, Check("GL530", "timing-relation", "fail", "feed.rise_end before 90 by 2, margin")) == "require[1]"
     )

@@ -92,7 +92,7 @@ def mesh_checks(
             [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts, roles))
         )
     before = f"{label.replace('_', '-')} mesh: " if label else ""
-    return [replace(check, what=before + check.what) for check in _in_ring(name, mesh, limits)]
+    return [check._replace(what=before + check.what) for check in _in_ring(name, mesh, limits)]
 
 
 def _in_ring(name: str, mesh: GearPair, limits: Any) -> Iterator[Check]:
