@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 LEAST_SHAFT_MODULES = 2.0
 FULL_HEIGHT = 2.25
 """Height of standard teeth, in modules."""
+_TOUCHING = 1e-9
+"""Gaps [mm] are differences of sizes: one that meets its limit in the drawing must not fail by their rounding."""
 
 
 class Gear(NamedTuple):
@@ -333,8 +335,8 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
 
 def collision_judged(gap: Any, limit: Any) -> Judged:
     """GL301 of gaps of gears that do not mesh [mm]."""
-    keeps = gap >= limit
-    return Judged(GEAR_COLLISION, gap, limit, keeps ^ True, keeps & (gap < 0.0), "mm")
+    keeps = gap >= limit - _TOUCHING
+    return Judged(GEAR_COLLISION, gap, limit, keeps ^ True, keeps & (gap < -_TOUCHING), "mm")
 
 
 def shaft_checks(layout: Layout) -> Iterator[Check]:
@@ -353,7 +355,7 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
 
 def shaft_judged(gap: Any, limit: Any, bare: Any) -> Judged:
     """GL302 of gaps of gears and shafts [mm], at axes that are bare a warning."""
-    low = (gap >= limit) ^ True
+    low = (gap >= limit - _TOUCHING) ^ True
     return Judged(SHAFT_CLEARANCE, gap, limit, low & (bare ^ True), low & bare, "mm")
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_left
 
 from gearlink.core.base.errors import NoSolution, named
+from gearlink.core.numerics.ranges import row_of
 
 _MAIN = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
 _FINE = (3, 6, 10, 14, 18, 24, 30, 40, 50, 65, 80, 100, 120, 140, 160, 180, 200, 225, 250, 280, 315, 355, 400, 450, 500)
@@ -287,7 +287,7 @@ def _width(size: float, grade: int) -> float:
 
 
 def _cell(table: tuple[float, ...], size: float) -> float:
-    return table[bisect_left(_MAIN_AND_FINE[len(table)], size)]
+    return table[row_of(_MAIN_AND_FINE[len(table)], size)]
 
 
 def _shaft(size: float, letter: str, grade: int) -> tuple[float, float]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec_paths import number_at, numbers_at, unit_at
+from gearlink.core.numerics.ranges import row_of
 from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.iso_286 import fit_clearances, limit_deviations
@@ -55,7 +55,7 @@ def radial_clearance(bore: float, group: str) -> tuple[float, float]:
             f"the table of bearing clearances reaches to a bore of {_BORES[-1]} mm, not {bore:g} mm",
             fix="give clearance: [minimum, maximum]",
         )
-    least, greatest = _ROWS[bisect_left(_BORES, bore)][GROUPS.index(group)]
+    least, greatest = _ROWS[row_of(_BORES, bore)][GROUPS.index(group)]
     return least / 1000, greatest / 1000
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from bisect import bisect_left
 from dataclasses import dataclass
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike
+from gearlink.core.numerics.ranges import row_of
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
 from gearlink.core.parts.gears.tooth import teeth
@@ -73,7 +73,7 @@ def thickness_allowances(series: str, diameter: float) -> tuple[float, float]:
             f"series {series!r} is none of DIN 3967: a tolerance series 21 to 30 and a letter a, ab, b, bc, c, cd, d, "
             "e, f, g or h, such as 25cd"
         )
-    row = bisect_left(_UP_TO, diameter)
+    row = row_of(_UP_TO, diameter)
     if row == len(_UP_TO):
         raise NoSolution(
             f"reference diameter: {unlike(diameter, 1e4)} mm (DIN 3967: up to 10000 mm)", fix="give limits"
@@ -98,7 +98,7 @@ def js7(distance: float) -> float:
     Source
         ISO 286-1, IT7; a row a = 250 to 315 mm in DIN 3967's example
     """
-    row = bisect_left(_JS_UP_TO, distance)
+    row = row_of(_JS_UP_TO, distance)
     if row == len(_JS_UP_TO):
         raise NoSolution(
             f"centre distance: {unlike(distance, 3150.0)} mm (table of js7: up to 3150 mm)", fix="give a number in mm"

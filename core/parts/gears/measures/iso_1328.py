@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from dataclasses import dataclass
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike
+from gearlink.core.numerics.ranges import row_of
 
 EDITION = 2013
 
@@ -192,11 +192,11 @@ class ToothTolerances:
 def _mean(name: str, size: float) -> float:
     """Geometric mean of the range of the edition of 1995 that holds a size [mm]."""
     limits = _LIMITS[name]
-    above = max(1, bisect_left(limits, size))
+    above = max(1, row_of(limits, size))
     return math.sqrt(limits[above - 1] * limits[above])
 
 
 def _rounded(um: float) -> float:
-    """To whole um above 10, to 0.5 above 5, else to 0.1; halves up."""
+    """To whole um above 10, to 0.5 above 5, else to 0.1; halves up, also those that rounding has made less."""
     step = 1.0 if um > 10 else 0.5 if um >= 5 else 0.1
-    return round(math.floor(um / step + 0.5) * step, 9)
+    return round(math.floor(um / step + 0.5 + 1e-9) * step, 9)
