@@ -16,7 +16,7 @@ def test_a_test_that_waits_is_shown_and_ends_the_run(tmp_path: Path) -> None:
     (tmp_path / "conftest.py").write_text(conftest.replace("REARMED = 20.0", "REARMED = 0.5"))
     shutil.copy(ROOT / "tests" / "sweeps.py", tmp_path)
     (tmp_path / "test_cases.py").write_text("import time\ndef test_it():\n    time.sleep(100.0)\n")
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--progress", "0.5"]
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--patience", "0.5"]
     command += ["-c", str(ROOT / "pyproject.toml"), "--rootdir", str(tmp_path), str(tmp_path / "test_cases.py")]
     ended = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=60)
     assert ended.returncode == 1

@@ -9,12 +9,21 @@ from typing import Any
 
 import pytest
 from factory import DESIGNS, each_kind, worked
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 
 from gearlink.core.base.kinds import KINDS
 
 _ASKS = {"gear", "analyze"}
 """What a default that is written out may ask for besides: the gears, or the motion, that it is a key of."""
+
+FOUND: dict[tuple[str, tuple[str | int, ...]], str] = {
+    ("rated_pair", ("load", "factors", "face_contact")): "face load factor",
+    ("rated_pair", ("material",)): "rating computes the factors",
+    ("rated_pair", ("material", "contact_factors")): "rating computes the factors",
+    ("rated_pair", ("material", "bending_factors")): "rating computes the factors",
+    ("slider_crank_quick_return", ("offset",)): "found for quick_return_ratio",
+}
+"""What the file has computed by another key: its default, written, would say something else, and is refused."""
 
 
 def left_out(spec: BaseModel, path: tuple[str | int, ...] = ()) -> Iterator[tuple[tuple[str | int, ...], Any]]:
@@ -45,6 +54,10 @@ def test_keys_that_are_left_out_may_be_written(file: Path) -> None:
     keys = list(left_out(spec))
     assert keys
     for path, value in keys:
+        if words := FOUND.get((file.stem, path)):
+            with pytest.raises(ValidationError, match=rf"(?s){words}.*omit"):
+                model.model_validate(written(data, path, value))
+            continue
         again = model.model_validate(written(data, path, value))
         assert again.model_dump() == spec.model_dump(), path
         more = set(again.commands()) - set(spec.commands())
