@@ -517,15 +517,28 @@ def _round(axes: Axes, title: str, columns: dict[str, Any], x: str, y: str, colo
         axes.text(0.5, 0.62, "0 N throughout", transform=axes.transAxes, fontsize=8, ha="center")
 
 
+_CROWDED = 0.13
+"""Of the size of a curve: numbers of marks that are nearer to each other would lie on each other."""
+
+
 def _angle_marks(axes: Axes, columns: dict[str, Any], x: Any, y: Any) -> None:
-    """Marks every 30 deg of the input's first turn, with the angle every quarter."""
+    """Marks every 30 deg of the input's first turn, with the angle every quarter; near ones share their words."""
+    near = _CROWDED * max(np.ptp(x), np.ptp(y))
+    named: list[tuple[complex, list[str]]] = []
     for i, angle in enumerate(columns["input_angle"].tolist()):
-        if angle % 30.0 == 0.0 and angle < _TURN:
-            size = 3.6 if angle % 90.0 == 0.0 else 2.0
-            axes.plot([x[i]], [y[i]], "o", color=style.BLACK, markersize=size, zorder=4, gid="angle-mark")
-            if angle % 90.0 == 0.0:
-                look: Any = {"fontsize": 6.0, "path_effects": style.outlined(), "zorder": 6}
-                axes.annotate(f"{angle:.0f}°", (x[i], y[i]), (3, 3), textcoords="offset points", **look)
+        if angle % 30.0 or angle >= _TURN:
+            continue
+        at, quarter = complex(x[i], y[i]), angle % 90.0 == 0.0
+        axes.plot([x[i]], [y[i]], "o", color=style.BLACK, markersize=3.6 if quarter else 2.0, zorder=4,
+                  gid="angle-mark")  # fmt: skip
+        if quarter:
+            words = next((words for place, words in named if abs(place - at) < near), None)
+            if words is None:
+                named.append((at, words := []))
+            words.append(f"{angle:.0f}°")
+    for at, words in named:
+        look: Any = {"fontsize": 6.0, "path_effects": style.outlined(), "zorder": 6}
+        axes.annotate(", ".join(words), (at.real, at.imag), (3, 3), textcoords="offset points", **look)
 
 
 def _jumps(points: Any) -> Any:

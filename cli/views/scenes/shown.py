@@ -624,15 +624,21 @@ class Picture:
         held = {name for each in now.connections if isinstance(each, Pin) and FRAME in (each.first, each.second)
                 for name in (each.first, each.second)}  # fmt: skip
         parts: list[Part] = []
-        marks = []
+        marks: list[Mark] = []
+        keys: list[Key] = []
         for name, link in now.links.items():
             pole = self._known(vectors.centre(now, name))
             turning = np.abs(link.turn.first) > 1e-9
             middle, half = self.box
             off = pole - middle
             far = ~((np.abs(off.real) < _FAR * half.real) & (np.abs(off.imag) < _FAR * half.imag)) | ~turning
+            if name in held or not turning.any():
+                continue
+            if (away := far & turning & np.isfinite(pole)).any():
+                arrow, mark, more = self._beyond(name, off, away)
+                parts, marks, keys = [*parts, arrow], [*marks, mark], [*keys, *more]
             pole = np.where(far, _OFF, pole)
-            if name in held or not np.isfinite(pole).any():
+            if not np.isfinite(pole).any():
                 continue
             ends = [each.at for each in now.connections if isinstance(each, Pin) and name in (each.first, each.second)]
             parts += [Chain(joints=(pole, self.frame.at(end)), color=GREY, width=0.8, marked=False) for end in ends[:2]]
@@ -640,7 +646,18 @@ class Picture:
                        repeats=0)  # fmt: skip
             parts.append(dot)
             marks.append(Mark(pole, f"P {name}"))
-        return parts, marks, [Key("P: instant centre against the frame", RED, 0.0)] if parts else []
+        return parts, marks, [Key("P: instant centre against the frame", RED, 0.0), *keys] if parts else []
+
+    def _beyond(self, name: str, off: Points, away: Mask) -> tuple[Arrow, Mark, list[Key]]:
+        """An arrow at the edge towards an instant centre that lies beyond it, with its distance on a still picture."""
+        middle, half = self.box
+        off = np.where(away, off, 1.0)
+        across = np.maximum(np.abs(off.real) / half.real, np.abs(off.imag) / half.imag)
+        edge, way = middle + off / across, 0.06 * self.size * off / np.abs(off)
+        far = float(np.abs(off[0]) * (1.0 - 1.0 / across[0]))
+        keys = [Key(f"P {name}: {far:.3g} mm beyond the edge", RED, 0.0)] if len(off) == 1 else []
+        arrow = Arrow(start=np.where(away, edge - way, _OFF), vector=way, color=RED)
+        return arrow, Mark(np.where(away, edge - 2.0 * way, _OFF), f"P {name}"), keys
 
     def _ghosts(self, _wish: Wish) -> Found:
         """Earlier positions, the paler the older."""

@@ -136,3 +136,18 @@ def test_a_sheet_of_loads_is_a_page_of_a4_or_of_a3(name: str) -> None:
     assert height <= math.sqrt(2.0) * width * 1.002
     panels = [axes for axes in figure.axes if axes.get_title(loc="left")]
     assert all(axes.get_window_extent().height > 18.0 for axes in panels), "none is squeezed"
+
+
+@pytest.mark.slow
+def test_angles_of_a_pin_stand_apart_and_are_all_told() -> None:
+    """Numbers of near marks lay on each other: within 0.13 of the curve they are one text."""
+    pins = [axes for axes in sheet("loaded_press", "loads").figure.axes if axes.get_title(loc="left").startswith("Pin")]
+    assert len(pins) >= 8
+    for axes in pins:
+        curve = max(axes.lines, key=lambda line: len(line.get_xdata())).get_xydata()
+        words = [text for text in axes.texts if "°" in text.get_text()]
+        told = ", ".join(text.get_text() for text in words).split(", ")
+        assert sorted(told) == ["0°", "180°", "270°", "90°"]
+        near = 0.13 * np.nanmax(np.ptp(curve[np.isfinite(curve).all(axis=1)], axis=0))
+        for one, other in itertools.combinations(words, 2):
+            assert math.dist(one.xy, other.xy) >= near * (1.0 - 1e-9)

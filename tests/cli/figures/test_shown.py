@@ -470,3 +470,22 @@ def test_numbers_of_a_path_that_coincide_are_one_text() -> None:
 def test_a_joint_of_two_letters_keeps_them_on_a_small_drawing() -> None:
     small = vector_sheet.draw(design("five_bar_path"), [40.0]).axes[0]
     assert {"A", "B", "C, M", "D", "E"} <= {text.get_text() for text in small.texts}
+
+
+def test_an_instant_centre_beyond_the_picture_has_an_arrow_at_its_edge() -> None:
+    """The coupler of a crank-rocker: the pole is where crank and rocker meet, found by their lines (1e-9)."""
+    made = design("crank_rocker_links")
+    fraction = np.array([80.0 / 360.0])
+    scene = shown.build(made, fraction, shown.wishes("centres"))
+    (arrow,) = (part for part in scene.parts if isinstance(part, Arrow))
+    links = made.moving.at(2.0 * np.pi * fraction, 0)
+    pins = {pin.name: complex(pin.at[0]) for pin in links.connections}
+    crank, rocker = pins["B"] - pins["A"], pins["C"] - pins["D"]
+    share = ((pins["D"] - pins["A"]) * rocker.conjugate()).imag / (crank * rocker.conjugate()).imag
+    pole, end = pins["A"] + share * crank, complex(arrow.start[0] + arrow.vector[0])
+    assert abs(((pole - end) * complex(arrow.vector[0]).conjugate()).imag) < 1e-9 * abs(pole - end) * abs(
+        arrow.vector[0]
+    )
+    assert ((pole - end) * complex(arrow.vector[0]).conjugate()).real > 0.0
+    assert any(f"P coupler: {abs(pole - end):.3g} mm beyond the edge" == key.words for key in scene.keys)
+    assert "P coupler" in [text.get_text() for text in vector_sheet.draw(made, [80.0], "centres").axes[0].texts]

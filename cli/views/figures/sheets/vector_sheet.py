@@ -125,7 +125,7 @@ def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
     scene = shown.build(design, np.array([fraction_at(frame, q)]), shown.wishes(wanted))
     scene = replace(  # without remarks of several words: it is small
         scene,
-        marks=tuple(mark for mark in scene.marks if " " not in mark.text.replace(", ", "")),
+        marks=tuple(mark for mark in scene.marks if " " not in mark.text.replace(", ", "").removeprefix("P ")),
         parts=tuple(
             replace(part, label="") if isinstance(part, Body) and " " in part.label else part for part in scene.parts
         ),
