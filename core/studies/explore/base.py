@@ -6,6 +6,7 @@ Each design may be computed by its own class, a form that every kind has and tha
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -29,6 +30,7 @@ _DEEPEST = 4
 _PATH = re.compile(r"\w+(?:\.\w+|\[\d{1,6}\])*")
 _MARK = re.compile(r'"\\u0000(\d+)\\u0000"')  # what stands in the file's JSON for a value that changes
 _WHOLE = ("int_type", "int_from_float")
+_ROUNDING = 1e-9
 
 
 class Refused(Exception):
@@ -283,12 +285,73 @@ def single(base: Base, changes: Changes, names: Iterable[str], codes: Sequence[s
         names : quantities that are wanted
         codes : of the checks that are wanted
     """
+    (found,) = singles(base, [changes], names, codes)
+    return found
+
+
+def singles(base: Base, changes: Iterable[Changes], names: Iterable[str], codes: Sequence[str]) -> list[Single]:
+    """Compute designs by their class, as `single` does; what a class seeks for many at once is sought first.
+
+    Notes
+        A design next to a limit is computed by itself: rounding among others could tell otherwise.
+    """
+    names, found, waiting = tuple(names), list[Single](), list[tuple[Changes, Design | Single]]()
+    for one in changes:
+        one = tuple(one)
+        waiting.append((one, _made(base, one)))
+        if len(waiting) >= _at_once(waiting[-1][1]):
+            found += _evaluated(base, waiting, names, codes)
+            waiting = []
+    return [*found, *_evaluated(base, waiting, names, codes)]
+
+
+def _made(base: Base, changes: Changes) -> Design | Single:
     try:
-        design = base.design(changes)
-        values = base.values(design, names)
-        return Single(values, tuple(findings_of(base, design, codes)))
+        return base.design(changes)
     except Refused as error:
-        return Single({}, (), error.key or "kind", str(error))
+        return _refused(error)
+
+
+def _at_once(made: Design | Single) -> int:
+    """Designs that are made before they are computed; one, of which the next keeps results, where none are shared."""
+    if isinstance(made, Single):
+        return Design.at_once
+    seeks_together = made.find_together.__func__ is not Design.find_together.__func__  # type: ignore[attr-defined]
+    return made.at_once if seeks_together else 1
+
+
+def _refused(error: Refused) -> Single:
+    return Single({}, (), error.key or "kind", str(error))
+
+
+def _evaluated(
+    base: Base, made: Sequence[tuple[Changes, Design | Single]], names: Sequence[str], codes: Sequence[str]
+) -> Iterable[Single]:
+    there: dict[type[Design], list[Design]] = {}
+    for _, design in made:
+        if not isinstance(design, Single):
+            there.setdefault(type(design), []).append(design)
+    for cls, designs in there.items():
+        cls.find_together(designs, names)
+    for changes, design in made:
+        found = _judged(base, design, names, codes)
+        if len(made) > 1 and any(map(_is_next_to_its_limit, found.findings)):
+            found = _judged(base, _made(base, changes), names, codes)
+        yield found
+
+
+def _judged(base: Base, design: Design | Single, names: Sequence[str], codes: Sequence[str]) -> Single:
+    if isinstance(design, Single):
+        return design
+    try:
+        return Single(base.values(design, names), tuple(findings_of(base, design, codes)))
+    except Refused as error:
+        return _refused(error)
+
+
+def _is_next_to_its_limit(check: Check) -> bool:
+    value, limit = check.value, check.limit
+    return value is not None and limit is not None and math.isclose(value, limit, rel_tol=_ROUNDING, abs_tol=_ROUNDING)
 
 
 def findings_of(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check]:

@@ -16,7 +16,7 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, as_arrays, put_in
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.studies.explore.base import single
+from gearlink.core.studies.explore.base import singles
 from gearlink.core.studies.explore.pareto import best_boxes, counted, front
 from gearlink.core.studies.explore.preparing import problem_of
 from gearlink.core.studies.explore.problem import Problem
@@ -123,9 +123,9 @@ def evaluated(problem: Problem, columns: Reals) -> Evaluated:
 
 
 def one_by_one(problem: Problem, columns: Reals) -> Evaluated:
-    """Designs by their class."""
-    singles = [single(problem.base, problem.changes(values), problem.names, problem.must_pass) for values in columns.T]
-    return as_arrays(singles, problem.names, problem.must_pass)
+    """Designs by their class; what that seeks for many of them at once is sought first."""
+    changes = map(problem.changes, columns.T)
+    return as_arrays(singles(problem.base, changes, problem.names, problem.must_pass), problem.names, problem.must_pass)
 
 
 @dataclass(frozen=True)

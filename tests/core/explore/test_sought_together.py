@@ -1,0 +1,70 @@
+"""Designs of a study whose class seeks extremes for many at once: what each by itself has, but for rounding.
+
+Tolerance: 1e-12 of a value, for extremes that are refined to rounding in other arrays.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from factory import worked
+
+from gearlink.core.base.design import Design
+from gearlink.core.machines.cylindrical_cam import CylindricalCamDesign
+from gearlink.core.studies.explore.base import Base, single, singles
+
+NAMES = ("max_pressure_angle", "min_curvature_radius")
+
+
+def changes(count: int) -> list[list[tuple[str, Any]]]:
+    return [[("cam.radius", 60.0 + i)] for i in range(count)]
+
+
+def test_designs_of_a_study_are_those_of_each_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    sizes, together = [], CylindricalCamDesign.find_together.__func__  # type: ignore[attr-defined]
+
+    def find_together(cls: type[Design], designs: Any, names: Any) -> None:
+        sizes.append(len(designs))
+        together(cls, designs, names)
+
+    monkeypatch.setattr(CylindricalCamDesign, "find_together", classmethod(find_together))
+    monkeypatch.setattr(CylindricalCamDesign, "at_once", 10)
+    asked = [*changes(12), [("cam.radius", -1.0)], [("speed", 91.0)]]
+    base = Base(worked("barrel_cam"), "cam")
+    many = singles(base, asked, NAMES, list(base.codes))
+    assert sizes == [10, 3]
+    alone = [single(Base(worked("barrel_cam"), "cam"), each, NAMES, list(base.codes)) for each in asked]
+    assert [one.refused for one in many] == [one.refused for one in alone] == [*[""] * 12, "cam.radius", ""]
+    for one, other in zip(many, alone, strict=True):
+        assert one.values == pytest.approx(other.values, rel=1e-12)
+        assert [(found.code, found.status) for found in one.findings] == [
+            (found.code, found.status) for found in other.findings
+        ]
+
+
+def test_designs_that_seek_nothing_together_keep_for_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    order = []
+    monkeypatch.setattr(
+        Base, "design", lambda self, changes, make=Base.design: order.append("made") or make(self, changes)
+    )
+    monkeypatch.setattr(Base, "values", lambda self, *asked, of=Base.values: order.append("asked") or of(self, *asked))
+    singles(Base(worked("wide_swing_twin_cam"), "swing"), [[("speed", 3000.0)]] * 2, (), ())
+    assert order == ["made", "asked"] * 2
+
+
+def test_a_design_next_to_a_limit_is_judged_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    alone = single(Base(worked("barrel_cam"), "cam"), [("cam.radius", 70.0)], NAMES, ())
+    data = worked("barrel_cam")
+    data["limits"] = {**data.get("limits", {}), "pressure_angle": alone.values["max_pressure_angle"]}
+    made, design = [], Base.design
+
+    def counted(self: Base, changes: Any = ()) -> Design:
+        made.append(dict(changes))
+        return design(self, changes)
+
+    monkeypatch.setattr(Base, "design", counted)
+    base = Base(data, "cam")
+    many = singles(base, changes(12), NAMES, list(base.codes))
+    assert made[12:] == [{"cam.radius": 70.0}]
+    assert many[10].values == alone.values
