@@ -406,7 +406,10 @@ class Design:
         """
 
     def prepare(self, quantities: Iterable[str], /) -> None:
-        """Compute what these quantities share, where that takes less than one after the other; refuse nothing."""
+        """Compute what these quantities share, where that takes less than one after the other; refuse nothing.
+
+        Names of checks may stand among them, for what they share with each other and with the quantities.
+        """
 
     def _prepare_as_step(self, quantities: Iterable[str]) -> None:
         """Seek together what some quantities share, as a step of its own where the design has such."""

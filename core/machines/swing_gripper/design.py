@@ -1070,7 +1070,7 @@ _EXTREMES = (
 
 
 _NOT_OF_MOTION = {"name", "cam", "size"}
-_OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius"}
+_OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius", *_CAM_CHECKS}
 
 
 _OF_FINGERS = ("finger-release", "pressure-angle", "cam-undercut")
@@ -1272,7 +1272,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         return made
 
     def prepare(self, quantities: Iterable[str]) -> None:
-        """Seek the extremes of the cams together, where several are asked for."""
+        """Seek the extremes of the cams together, where several quantities or checks ask for them."""
         if len({*quantities} & _OF_CAMS) > 1:
             with suppress(GearlinkError):  # it is said where the quantity is asked for
                 self.cams.seek()

@@ -191,19 +191,20 @@ class Base:
         """The spec as it stands."""
         return self.spec()
 
-    def values(self, design: Design, names: Iterable[str]) -> dict[str, Any]:
+    def values(self, design: Design, names: Iterable[str], checks: Iterable[str] = ()) -> dict[str, Any]:
         """Quantities of a design in the units of design files.
 
         Parameters
             design : of this base
             names : with an index where one element of a list is wanted
+            checks : that will be asked for besides
         Raises
             Refused - where there is no such mechanism
         """
         made, names = {self.command: design}, tuple(names)
         found = {}
         plain_names = [name.partition("[")[0] for name in names]
-        design.prepare([name for name in plain_names if self.places[name] == self.command])
+        design.prepare([*(name for name in plain_names if self.places[name] == self.command), *checks])
         for name in names:
             plain, _, index = name.partition("[")
             command = self.places[plain]
@@ -344,7 +345,8 @@ def _judged(base: Base, design: Design | Single, names: Sequence[str], codes: Se
     if isinstance(design, Single):
         return design
     try:
-        return Single(base.values(design, names), tuple(findings_of(base, design, codes)))
+        checks = _checks_of(base, codes)
+        return Single(base.values(design, names, checks), tuple(findings_of(base, design, codes)))
     except Refused as error:
         return _refused(error)
 
@@ -354,13 +356,17 @@ def _is_next_to_its_limit(check: Check) -> bool:
     return value is not None and limit is not None and math.isclose(value, limit, rel_tol=_ROUNDING, abs_tol=_ROUNDING)
 
 
+def _checks_of(base: Base, codes: Sequence[str]) -> set[str]:
+    return {name for code in codes for name in base.codes[code]}
+
+
 def findings_of(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check]:
     """The findings of a design under some codes.
 
     Raises
         Refused - where a check finds that there is no mechanism
     """
-    names = {name for code in codes for name in base.codes[code]}
+    names = _checks_of(base, codes)
     try:
         shown = dict.fromkeys(name for name in design.outline(base.command).checks if name in names)
         return [check for name in shown for check in design.check(name)]

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from factory import worked
 
+from gearlink.core.parts.cams import disc_cam
 from gearlink.core.studies.explore.base import Base, single
 
 NAMES = ("max_radius[0]", "max_radius[1]", "max_pressure_angle[0]", "min_curvature_radius[1]")
@@ -47,3 +48,21 @@ def test_threads_share_what_a_gripper_keeps(hurried: None) -> None:
     assert len({one.values["max_radius[0]"] for one in alone}) == len(alone)
     for one, other in zip(3 * alone, together, strict=True):
         assert np.array_equal([one.values[name] for name in NAMES], [other.values[name] for name in NAMES])
+
+
+def test_checks_and_the_one_quantity_of_a_study_are_sought_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    alone: list[int] = []
+    search = disc_cam.maximum_over
+
+    def counted(*given: Any, **more: Any) -> Any:
+        alone.append(1)
+        return search(*given, **more)
+
+    monkeypatch.setattr(disc_cam, "maximum_over", counted)
+    monkeypatch.setattr(disc_cam, "minimum_over", counted)
+    made = base()
+    found = single(made, (), NAMES[2:3], list(made.codes))
+    assert found.findings
+    assert not alone
+    assert single(base(), (), NAMES[2:3], ()).values == pytest.approx(found.values, rel=1e-12)
+    assert alone
