@@ -131,24 +131,30 @@ def meetings(figure: Any) -> list[str]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     renderer = FigureCanvasAgg(figure).get_renderer()
-    figure.draw(renderer)
-    seen = [(text, _box(text, renderer)) for text in _read(figure)]
+    figure.draw_without_rendering()
+    texts = _read(figure)
+    boxes = np.array([_box(text, renderer) for text in texts]).reshape(-1, 4)
     found = [
-        f"{one.get_text()!r} on {other.get_text()!r}"
-        for i, (one, box) in enumerate(seen)
-        for other, far in seen[:i]
-        if min(box[2], far[2]) - max(box[0], far[0]) > 1.5 and min(box[3], far[3]) - max(box[1], far[1]) > 1.5
+        f"{texts[i].get_text()!r} on {texts[k].get_text()!r}"
+        for i in range(len(texts))
+        for k in np.flatnonzero(_meet(boxes[i], boxes[:i], 1.5))
     ]
-    page = figure.bbox
-    found += [f"{text.get_text()!r} beside the page" for text, box in seen if box[0] < -0.5 or box[2] > page.x1 + 0.5]
+    beside = (boxes[:, 0] < -0.5) | (boxes[:, 2] > figure.bbox.x1 + 0.5)
+    found += [f"{texts[i].get_text()!r} beside the page" for i in np.flatnonzero(beside)]
     for axes in figure.axes:
-        marks = [box for line in axes.lines for box in _marks(line, axes)]
-        for text, box in seen:
-            if text.axes is axes and text in axes.texts:
-                met = [m for m in marks if min(box[2], m[2]) - max(box[0], m[0]) > 2.5
-                       and min(box[3], m[3]) - max(box[1], m[1]) > 2.5]  # fmt: skip
-                found += [f"{text.get_text()!r} on a mark"] if met else []
+        if (marks := [box for line in axes.lines for box in _marks(line, axes)]) and axes.texts:
+            own = set(axes.texts)
+            met = [text for text, box in zip(texts, boxes, strict=True)
+                   if text in own and _meet(box, np.array(marks), 2.5).any()]  # fmt: skip
+            found += [f"{text.get_text()!r} on a mark" for text in met]
     return found
+
+
+def _meet(box: Any, others: Any, least: float) -> Any:
+    """Which boxes a box overlaps by more than so many pixels both ways."""
+    across = np.minimum(box[2], others[:, 2]) - np.maximum(box[0], others[:, 0])
+    up = np.minimum(box[3], others[:, 3]) - np.maximum(box[1], others[:, 1])
+    return (across > least) & (up > least)
 
 
 def _read(figure: Any) -> list[Any]:

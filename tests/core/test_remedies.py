@@ -146,7 +146,7 @@ FEWER = {"cycle": 0.3, "loads": 0.2}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [40, pytest.param(1000, marks=pytest.mark.stress)])
+@pytest.mark.parametrize("count", [30, pytest.param(1000, marks=pytest.mark.stress)])
 @pytest.mark.parametrize(("kind", "least"), [(kind, LEAST.get(kind, 0.5)) for kind in DRAWN])
 def test_many_followed_remedies(kind: str, least: float, count: int) -> None:
     wrong, repaired = tried(kind, round(FEWER.get(kind, 1.0) * count))
