@@ -13,7 +13,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Table, safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, within
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.spec import (
     ROLLER_SHARE,
     CamBody,
@@ -135,7 +135,9 @@ class FollowerCams:
         if found.radius <= roller:
             given = self.spec.cam.prime_radius is not None
             words = "prime_radius" if given else "the minimum prime radius"
-            message = f"{words}: {found.radius:.4g} mm (limit > {roller:g} mm, the roller_radius): no cam is left"
+            message = (
+                f"{words}: {unlike(found.radius, roller)} mm (limit > {unlike(roller, found.radius)} mm; roller_radius)"
+            )
             fix = f"set cam.prime_radius above {roller:g} mm" + ("" if given else ", or give cam.size.curvature_radius")
             raise NoSolution(message, key="cam.prime_radius" if given else "cam.size", fix=fix)
         return found
@@ -217,7 +219,9 @@ class FollowerCams:
     def _triangle(self, arm: float, distance: float, radius: float) -> Place:
         share = (distance**2 + arm**2 - radius**2) / (2.0 * distance * arm)
         if not -1.0 < share < 1.0:
-            message = f"arm {arm:g} mm, center_distance {distance:g} mm and prime_radius {radius:g} mm make no triangle"
+            bound, sign = (abs(distance - arm), ">") if share > 0.0 else (distance + arm, "<")
+            limit = f"limit {sign} {unlike(bound, radius)} mm; arm {arm:g} mm, center_distance {distance:g} mm"
+            message = f"prime_radius: {unlike(radius, bound)} mm ({limit})"
             raise NoSolution(
                 message,
                 key="cam.prime_radius",

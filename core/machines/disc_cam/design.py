@@ -106,7 +106,7 @@ class DiscCamDesign(OfFollower, Design):
         ("cam", "analyze"),
         (
             "lift_max",
-            ("prime_radius", "cam.prime_radius"),
+            "prime_radius",
             ("max_pressure_angle", "<limits.pressure_angle", "<cam.size.pressure_angle"),
             "min_curvature_radius",
             "max_radius",

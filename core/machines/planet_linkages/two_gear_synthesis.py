@@ -129,8 +129,8 @@ class BackStepSynthesis(TwoGearFourBar):
             limit = safely_above(math.degrees(least))
             raise NoSolution(
                 (
-                    f"{words} is less than the minimum of crank-rockers with these gears and links, {limit} "
-                    "deg: their output steps back with every frame"
+                    f"{words} is out of reach: at least {limit} deg as a crank-rocker with these gears and links, "
+                    "whose output steps back with every frame"
                 ),
                 fix=f"set back_step.angle to at least {limit} deg, or take more teeth on the ring gear",
             )
@@ -299,8 +299,8 @@ class DwellSynthesis(TwoGearFourBar):
             return
         raise NoSolution(
             (
-                f"a dwell of {self._request.window:g} deg within +-{short(math.degrees(band))} deg is not possible "
-                f"with these gears and links: max. {safely_below(math.degrees(longest))} deg{self._there()}"
+                f"{self._asked(band)} (limit <= {safely_below(math.degrees(longest))} deg with these gears and "
+                f"links{self._there()})"
             ),
             fix=f"set dwell.window to {safely_below(math.degrees(longest))} deg",
         )
@@ -312,18 +312,20 @@ class DwellSynthesis(TwoGearFourBar):
         longest = safely_below(math.degrees(limit))
         raise NoSolution(
             (
-                f"a dwell of {self._request.window:g} deg within +-{short(math.degrees(band))} deg is not possible "
-                f"with these gears and links: max. {longest} deg{self._there()}, or "
-                f"+-{safely_above(math.degrees(least))} deg"
+                f"{self._asked(band)} (limit <= {longest} deg with these gears and links{self._there()}, or "
+                f"+-{safely_above(math.degrees(least))} deg)"
             ),
             fix=f"set dwell.window to {longest} deg, or dwell.tolerance to {safely_above(math.degrees(least))} deg",
         )
+
+    def _asked(self, band: float) -> str:
+        return f"dwell within +-{short(math.degrees(band))} deg: {self._request.window:g} deg"
 
     def _there(self) -> str:
         """With what transmission angle the longest window is had."""
         assert self._longest is not None
         angle = self.family.drive(self._longest[0]).linkage.min_transmission_angle()
-        return f" (with a transmission angle of {math.degrees(angle):.3g} deg)"
+        return f", transmission angle {math.degrees(angle):.3g} deg"
 
     # What is reached
 

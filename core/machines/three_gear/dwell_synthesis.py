@@ -217,10 +217,9 @@ class DwellTask(FamilyTask):
         place, longest = always.longest(self.band)
         raise NoSolution(
             (
-                f"{self._asked(self.band)} is not possible with a crank-rocker of these gears and this crank: max. "
-                f"{safely_below(math.degrees(longest))} deg (frame {short(place)} mm), or +-"
-                f"{safely_above(math.degrees(least))} deg; its back-step is at least "
-                f"{safely_above(math.degrees(always.least_step[1]))} deg"
+                f"{self._asked(self.band)} (limit <= {safely_below(math.degrees(longest))} deg as a crank-rocker with "
+                f"these gears and this crank, frame {short(place)} mm, or +-{safely_above(math.degrees(least))} deg; "
+                f"its back-step is at least {safely_above(math.degrees(always.least_step[1]))} deg)"
             ),
             fix="take a shorter crank",
         )
@@ -262,7 +261,7 @@ class DwellTask(FamilyTask):
             fix = f"set dwell.window to at most {most} deg"
             if self.spec.gears.idler is None:  # the smallest one: the limits are not looked at yet
                 fix += f", with an idler of {train.idler:g} teeth where the limits allow it"
-            raise NoSolution(f"{self._asked(band)} is not possible with these gears: max. {most} deg", fix=fix)
+            raise NoSolution(f"{self._asked(band)} (limit <= {most} deg with these gears)", fix=fix)
 
     def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:
         band = self.band
@@ -275,14 +274,14 @@ class DwellTask(FamilyTask):
         longest = ripple(filled, train).crank_angle
         raise NoSolution(
             (
-                f"{self._asked(band)} is not possible with these gears: max. {safely_below(math.degrees(longest))} "
-                f"deg, or +-{safely_above(math.degrees(least))} deg"
+                f"{self._asked(band)} (limit <= {safely_below(math.degrees(longest))} deg with these gears, or "
+                f"+-{safely_above(math.degrees(least))} deg)"
             ),
             fix=f"set dwell.window to at most {safely_below(math.degrees(longest))} deg",
         )
 
     def _asked(self, band: float) -> str:
-        return f"a dwell of {self.request.window:g} deg within +-{short(math.degrees(band))} deg"
+        return f"dwell within +-{short(math.degrees(band))} deg: {self.request.window:g} deg"
 
 
 def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:

@@ -235,8 +235,8 @@ def solved(
     if not target >= least:
         limit = safely_above(math.degrees(share * least))
         raise NoSolution(
-            f"{what} is less than that of any crank-rocker with this crank: its output steps back with every frame, "
-            f"and the minimum is {limit} deg",
+            f"{what} is out of reach: at least {limit} deg as a crank-rocker with this crank, whose output steps back "
+            "with every frame",
             fix=f"set {key or 'it'} to at least {limit} deg, or take a shorter crank",
         )
     ends = (least - target, most - target)

@@ -720,11 +720,11 @@ def check_reach(i3: float, window: float, tolerance: float) -> None:
     if window < longest or (window == longest and fills(i3, tolerance)):
         return
     most = safely_below(math.degrees(longest))
-    limits = f"max. {most} deg" if fills(i3, tolerance) else f"below {most} deg"
+    limits = f"limit {'<=' if fills(i3, tolerance) else '<'} {most} deg with i3 {short(i3)}"
     if window < window_limit(i3):
         limits += f", or +-{safely_above(math.degrees(least_tolerance(i3, window)))} deg"
     raise NoSolution(
-        f"a dwell of {_deg(window)} deg within +-{_deg(tolerance)} deg is not possible (i3 {short(i3)}): {limits}",
+        f"dwell within +-{_deg(tolerance)} deg: {_deg(window)} deg ({limits})",
         fix=f"set dwell.window to at most {most} deg{_other_idler(i3, window, tolerance)}",
     )
 

@@ -124,7 +124,7 @@ class Problem:
     def _too_many(self, count: float, budget: float) -> Fault:
         sizes = {v.path: len(v.values) or _most_values(v) for v in self.variables}
         widest = max(sizes, key=lambda path: sizes[path])
-        message = f"{count:.3g} designs are more than the budget of {budget:.3g}"
+        message = f"designs of the grid: {count:.10g} (limit <= {budget:.10g}; sampling.budget)"
         helps = f"coarsen {widest} ({sizes[widest]:.0f} values) or raise sampling.budget (--budget)"
         return Fault("GL155", message, ("sampling", "budget"), helps)
 

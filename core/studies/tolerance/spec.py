@@ -122,12 +122,11 @@ class ToleranceSource(Spec):
 
     def _process(self) -> None:
         if self.cpk is not None and self.cpk > self.cp:
-            raise _wrong(
-                "GL172", f"cpk {self.cpk:g} is above cp {self.cp:g}: a process is at best in the middle, cpk = cp"
-            )
+            raise _wrong("GL172", f"cpk: {self.cpk:g} (limit <= {self.cp:g}, cp)")
         if self.cpk is not None and self.cpk < self.cp and self.shift is None:
             raise _wrong(
-                "GL172", f"cpk {self.cpk:g} is below cp {self.cp:g}: say with shift: up or down where the process lies"
+                "GL172",
+                f"cpk: {self.cpk:g} (limit >= {self.cp:g}, cp, without shift)\ngive shift: up or down",
             )
         if self.mode is not None and self.law != "triangular":
             raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}\nomit it")
@@ -144,7 +143,7 @@ class Correlation(Spec):
     @model_validator(mode="after")
     def _a_correlation(self) -> Correlation:
         if not -1.0 <= self.rho <= 1.0:
-            raise _wrong("GL176", f"rho {self.rho:g} is no correlation: it lies between -1 and 1", "rho")
+            raise _wrong("GL176", f"rho: {self.rho:g} (limit -1 to 1)", "rho")
         return self
 
 

@@ -225,7 +225,7 @@ def test_a_roller_that_reaches_over_the_axis_is_refused(body: dict[str, Any], ke
     slow = [{"to": 180, "lift": 0.1}, {"to": 360, "lift": 0}]
     if "size" in body:
         body = {"size": {**body["size"], "curvature_radius": 0.1}}
-    with pytest.raises(NoSolution, match="limit > 8 mm, the roller_radius") as refused:
+    with pytest.raises(NoSolution, match="limit > 8 mm; roller_radius") as refused:
         _ = cam(slow, small, body).prime_radius
     assert refused.value.key == key
 

@@ -391,7 +391,7 @@ def test_short_windows_keep_their_digits(degrees: float) -> None:
 @pytest.mark.parametrize(
     ("command", "data", "sections", "key", "words"),
     [
-        ("dwell", RINGS, {"dwell": {"window": 100.0, "tolerance": 0.5}}, "dwell.window", "max. 65.7"),
+        ("dwell", RINGS, {"dwell": {"window": 100.0, "tolerance": 0.5}}, "dwell.window", "limit <= 65.7"),
         ("dwell", RINGS, {"dwell": {"window": 2.0, "tolerance": 0.5}}, "dwell.window", "no linkage needed"),
         ("dwell", RINGS, {"dwell": {"tolerance": 72.0}}, "dwell.tolerance", "limit < 72 deg"),
         ("back-step", SUNS, {"back_step": {"angle": 300.0}}, "back_step.angle", "173.9"),
