@@ -97,6 +97,9 @@ TITLES = {
 """What a key result is called where its name would mislead."""
 
 
+_REGISTER = "register, "
+
+
 class KeyResult(NamedTuple):
     """One of the results that a command shows first.
 
@@ -112,8 +115,11 @@ class KeyResult(NamedTuple):
 
     @property
     def title(self) -> str:
-        """What it is called, its name where that says it."""
-        return TITLES.get(self.quantity.name, self.quantity.name)
+        """What it is called, its name where that says it; of a register also what its two values are of."""
+        title = TITLES.get(self.quantity.name, self.quantity.name)
+        if title.startswith(_REGISTER) and isinstance(self.quantity.value, list):
+            return f"{title.removeprefix(_REGISTER)}, torque + and -"
+        return title
 
 
 def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tuple[KeyResult, ...]:

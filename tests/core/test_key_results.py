@@ -14,9 +14,10 @@ from pydantic import BaseModel
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.options import Options
 from gearlink.core.base.design import Design
-from gearlink.core.base.key_results import FEWEST, MOST, SHARED, TITLES, Key
+from gearlink.core.base.key_results import FEWEST, MOST, SHARED, TITLES, Key, KeyResult
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.nomenclature import term
+from gearlink.core.base.report import Quantity
 
 COMMANDS = [(kind.name, command) for kind in KINDS.values() for command in kind.commands]
 
@@ -116,3 +117,9 @@ def test_of_many_joints_the_one_that_bears_most_is_shown() -> None:
     peaks = {q.name: q.value for q in report.quantities if q.name.endswith(".peak")}
     shown = [each.quantity.name for each in report.key if each.quantity.name.endswith(".peak")]
     assert shown == [max(peaks, key=lambda name: float(str(peaks[name])))]
+
+
+def test_the_two_values_of_a_register_are_named() -> None:
+    """One for each sense of the torque: without that two equal numbers stand side by side."""
+    for value, title in (([0.1, 0.2], "worst case, torque + and -"), (0.2, "register, worst case")):
+        assert KeyResult(Quantity("worst", value, "mm", "", "")).title == title
