@@ -363,3 +363,20 @@ def test_a_cam_under_a_flat_face_is_drawn_with_its_own_radii() -> None:
     face, point = cam.face(), complex(cam.points(np.zeros(1))[0][0])
     assert 0.5 * (face[0] + face[1]) == pytest.approx(point, abs=1e-12)
     assert cam.points(np.linspace(0.0, 2.0 * math.pi, 721))[0].imag.max() <= 40.0 + 1e-9  # all below the face
+
+
+@pytest.mark.parametrize(
+    ("errors", "words"),
+    [
+        (None, "No tolerance in the file (errors.profile, tolerance.sources): profile and roughness as agreed."),
+        (
+            {"profile": 0.01, "run_out": 0.02},
+            "Errors: profile ±0.01 mm; run-out 0.02 mm. Sizes without limits (tolerance.sources): as agreed. "
+            "Roughness as agreed.",
+        ),
+    ],
+)
+def test_a_drawing_names_the_errors_of_the_file_and_the_keys_it_lacks(errors: Any, words: str) -> None:
+    made = design(worked("loaded_cam"), **({} if errors is None else {"errors": errors}))
+    (cam,) = cam_sheets.discs(made)
+    assert words in true_size.notes(made, cam)

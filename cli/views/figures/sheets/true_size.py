@@ -8,7 +8,7 @@ paper are in mm from its lower left corner.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -323,11 +323,27 @@ def notes(design: Any, cam: DiscCam) -> list[str]:
         f"Smallest convex radius of the {'pitch curve' if rolls else 'profile'} "
         f"{_number(cam.min_curvature_radius.value)} mm; the profile is the "
         f"envelope of the {'roller' if rolls else 'face'}{', undercut' if is_cut(cam) else ''}.",
-        "Tolerances of the file: " + "; ".join(sized) if sized else
-        "The file has no tolerances of the cam: profile tolerance and roughness as agreed.",
+        _toleranced(sized, [*_errors(design)]),
         f"Table: radius of the {'centre of the roller' if rolls else 'profile'} [mm] over the angle on the cam [deg], "
         "counter-clockwise from the mark.",
     ]  # fmt: skip
+
+
+def _toleranced(sized: Sequence[str], errors: Sequence[str]) -> str:
+    """What the file limits, and which key would say what it does not."""
+    if not (sized or errors):
+        return "No tolerance in the file (errors.profile, tolerance.sources): profile and roughness as agreed."
+    given = [f"{name}: " + "; ".join(words) for name, words in (("Tolerances", sized), ("Errors", errors)) if words]
+    missing = "" if sized else " Sizes without limits (tolerance.sources): as agreed."
+    return f"{'. '.join(given)}.{missing} Roughness as agreed."
+
+
+def _errors(design: Any) -> Iterator[str]:
+    """What the section `errors` allows of the cam as manufactured."""
+    section = getattr(design.spec, "errors", None)
+    allowed = (("profile", "profile ±{:g} mm"), ("run_out", "run-out {:g} mm"), ("key", "key ±{:g} deg"),
+               ("roller_radius", "roller radius ±{:g} mm"))  # fmt: skip
+    yield from (words.format(value) for key, words in allowed if (value := getattr(section, key, 0.0)))
 
 
 def _number(value: float) -> str:
