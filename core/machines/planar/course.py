@@ -62,10 +62,11 @@ class _Follower:
     def place(self, q: float, u: tuple[float, ...]) -> Place | None:
         """The place at an input; None in a dead centre."""
         jets = Jets.of(np.array([u]))
-        sizes = np.linalg.svd(self.system.matrix(jets)[0], compute_uv=False)
+        matrix = self.system.matrix(jets)
+        sizes = np.linalg.svd(matrix[0], compute_uv=False)
         if sizes[-1] < _SINGULAR * sizes[0]:
             return None
-        jets = self.system.onward(jets, np.array([q]), 1)
+        jets = self.system.onward(jets, np.array([q]), 1, matrix)
         rates = joined(jets.x[1], jets.t[1])[0]
         k, k_rate, m, fastest = self.system.bounds(jets)
         slow = (math.sqrt(k * m) + k_rate) / float(sizes[-1])

@@ -10,6 +10,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial import legendre
 
 from gearlink.core.base.design import Design, NamesOfFile, Outline
 from gearlink.core.base.errors import GearlinkError, MissingSection
@@ -190,11 +191,18 @@ def sort_of(crank: float, coupler: float, output: float, frame: float) -> str:
     return ("crank-rocker", "double-rocker", "rocker-crank", "double-crank")[lengths.index(least)]
 
 
+_STEPS = 8
+"""Of the grid, in a panel of the path."""
+_ROUGH = 1e-7
+"""Of the size of the speed: last coefficients of ten nodes, of whose squares the integral is wrong."""
+
+
 def length(course: Course, x_of: Moved, y_of: Moved) -> float:
     """Length of the path over the period or range [mm]: the integral of |P'|.
 
     Notes
-        Panels end where |P'| is smallest, at a kink where the point turns back.
+        Panels end where |P'| is smallest, at a kink where the point turns back. A panel is several steps of the grid,
+        and those steps one by one where |P'| at its nodes is no polynomial: its last two Legendre coefficients tell.
     """
     point, arm = x_of, x_of.place / x_of.size
 
@@ -203,15 +211,26 @@ def length(course: Course, x_of: Moved, y_of: Moved) -> float:
         return np.asarray(sum((np.conj(rates[j]) * rates[k - j]).real for j in range(k + 1)))
 
     places = turning_points(course, square, ahead=1)
-    edges = np.unique(np.concatenate([course.grid, places]))
     x = np.array([*(-node for node in GAUSS_NODES), *GAUSS_NODES])
     w = np.array([*GAUSS_WEIGHTS, *GAUSS_WEIGHTS])
-    width = np.diff(edges)
-    q = edges[:-1, None] + 0.5 * width[:, None] * (1.0 + x)
-    jets = course.jets(q.ravel(), 1)
-    rates = [course.derivatives(each.coefficient, jets, 1)[1] for each in (x_of, y_of)]
-    speed = np.hypot(*rates)
-    return float(np.sum(0.5 * width * (speed.reshape(q.shape) @ w)))
+
+    def speeds(low: Reals, high: Reals) -> Reals:
+        q = low[:, None] + 0.5 * (high - low)[:, None] * (1.0 + x)
+        jets = course.jets(q.ravel(), 1)
+        rates = [course.derivatives(each.coefficient, jets, 1)[1] for each in (x_of, y_of)]
+        return np.asarray(np.hypot(*rates)).reshape(q.shape)
+
+    grid = course.grid
+    edges = np.unique(np.concatenate([grid[::_STEPS], grid[-1:], places]))
+    found = speeds(edges[:-1], edges[1:])
+    size = np.abs(found) @ w
+    tail = np.abs(found @ (w[:, None] * legendre.legvander(x, x.size - 1)[:, -2:])).max(axis=1)
+    rough = tail > _ROUGH * size
+    total = float(np.sum(0.5 * np.diff(edges)[~rough] * (found[~rough] @ w)))
+    fine = np.unique(np.concatenate([grid, places]))
+    inside = rough[np.searchsorted(edges, fine[:-1], side="right") - 1]
+    low, high = fine[:-1][inside], fine[1:][inside]
+    return total + float(np.sum(0.5 * (high - low) * (speeds(low, high) @ w))) if low.size else total
 
 
 GENERAL = (

@@ -227,15 +227,17 @@ class System:
             return np.asarray(np.linalg.solve(self.matrix(jets), right)[..., 0])
         return self.solved(self.matrix(jets)).solve(-self.values(jets, 0, q))
 
-    def onward(self, jets: Jets, q: Reals, order: int) -> Jets:
+    def onward(self, jets: Jets, q: Reals, order: int, matrix: Reals | None = None) -> Jets:
         """Coefficients up to an order by J y_n = -F_n, F_n the coefficient of F with y_n = 0.
 
+        Parameters
+            matrix : J, where it is known
         Raises
             LinAlgError - where the matrix is singular
         """
         if order <= jets.order:
             return jets
-        solved = self.solved(self.matrix(jets))
+        solved = self.solved(self.matrix(jets) if matrix is None else matrix)
         still_x, still_t = np.zeros_like(jets.x[0]), np.zeros_like(jets.t[0])
         for k in range(jets.order + 1, order + 1):
             rest = self.values(jets.and_next(still_x, still_t), k, q)
@@ -296,6 +298,10 @@ def _line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], fl
     ), moved
 
 
+_FEW = 32
+"""Rows that are solved faster as they are than block by block."""
+
+
 @dataclass(frozen=True)
 class Solved:
     """A matrix (N, m, m), whose blocks are inverted once."""
@@ -312,7 +318,9 @@ class Solved:
         return found
 
     def solve(self, right: Reals) -> Reals:
-        """x of matrix x = right, once corrected; (N, m)."""
+        """x of matrix x = right, of many rows by their blocks and once corrected; (N, m)."""
+        if len(right) <= _FEW:
+            return np.asarray(np.linalg.solve(self.matrix, right[..., None])[..., 0])
         with np.errstate(all="ignore"):
             found = self._once(right)
             return found + self._once(right - np.einsum("nij,nj->ni", self.matrix, found))
