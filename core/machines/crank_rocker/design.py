@@ -166,7 +166,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
                 solve(self.linkage, angle, order=1)
         return start, end
 
-    def state(self, crank_angle: float, order: int = 0) -> FourBarState:
+    def state(self, crank_angle: float, order: int = 0) -> FourBarState[float]:
         """The linkage at a crank angle [rad], with rates by it."""
         return solve(self.linkage, crank_angle, order)
 

@@ -56,7 +56,7 @@ class PlanetLinkage:
             )
 
     @cached_property
-    def _start(self) -> FourBarState:
+    def _start(self) -> FourBarState[float]:
         return solve(self.linkage, 0.0)
 
     def angle(self, crank_angle: float) -> float:

@@ -23,10 +23,9 @@ from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.together import kept_last
-from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarInverseState
 from gearlink.core.parts.linkages.fourbar.position import solve_inverse as solve_one_inverse
 from gearlink.core.parts.linkages.fourbar.sweep import (
-    FourBarInverseSweep,
     dead_point_distance,
     solve_by_newton,
     solve_inverse,
@@ -174,7 +173,7 @@ class GripperLinkage:
             output_jerk=jerk,
         )
 
-    def ratios(self, beta: Reals) -> FourBarInverseSweep:
+    def ratios(self, beta: Reals) -> FourBarInverseState[Reals]:
         """Speed ratios w_input/w_output and w_coupler/w_output as geometry, defined in the dwells too."""
         return solve_inverse(self.four_bar, self.local_output(beta), 1)
 

@@ -128,7 +128,7 @@ class Course(NamedTuple):
 
     linkage: FourBar
     train: GearTrain
-    start: FourBarState
+    start: FourBarState[float]
 
     def angle(self, crank_angle: float) -> float:
         """`output_angle`."""
@@ -145,7 +145,7 @@ class Course(NamedTuple):
         return _turned(self.train, crank_angle, state, self.start), self.train.ratio + speed, *more
 
 
-def _turned(train: GearTrain, crank_angle: float, state: FourBarState, start: FourBarState) -> float:
+def _turned(train: GearTrain, crank_angle: float, state: FourBarState[float], start: FourBarState[float]) -> float:
     return (
         train.ratio * crank_angle
         + train.coupler_share * (state.coupler_angle - start.coupler_angle)

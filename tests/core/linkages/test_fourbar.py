@@ -271,14 +271,14 @@ def test_mirror_and_scale_hold_bit_by_bit(lengths: tuple[float, ...], share: flo
     assert solve(FourBar(*(0.125 * x for x in lengths)), phi, 3) == state
 
 
-def condition(linkage: FourBar, phi: float, state: FourBarState) -> float:
+def condition(linkage: FourBar, phi: float, state: FourBarState[float]) -> float:
     """Condition of the angles of coupler and rocker, (l_max/n + l_max/l_min)/sin(gamma)."""
     a, b, c, d = linkage.crank, linkage.coupler, linkage.rocker, linkage.frame
     to_d = math.hypot(d - a * math.cos(phi), a * math.sin(phi))
     return max(a, b, c, d) * (1.0 / to_d + 1.0 / min(b, c)) / math.sin(state.transmission_angle)
 
 
-def condition_there_and_back(linkage: FourBar, phi: float, there: FourBarState, gain: float) -> float:
+def condition_there_and_back(linkage: FourBar, phi: float, there: FourBarState[float], gain: float) -> float:
     """Condition of the angles after both ways: the return stroke passes on the error of the rocker angle by its gain,
     d phi/d psi, and adds its own."""
     a, b, c, d = linkage.crank, linkage.coupler, linkage.rocker, linkage.frame

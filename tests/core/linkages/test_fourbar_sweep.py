@@ -13,7 +13,6 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from dataclasses import fields
 from pathlib import Path
 
 import mpmath as mp
@@ -28,7 +27,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar import sweep as sweep
 from gearlink.core.parts.linkages.fourbar.loop import closing_range
-from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -55,7 +54,7 @@ def angles_of(linkage: FourBar, count: int) -> np.ndarray:
 def compare(linkage: FourBar, got: object, states: list[object], angle_names: tuple[str, str]) -> None:
     gamma = got.transmission_angle
     dev = np.minimum(gamma, np.pi - gamma)
-    for name in (f.name for f in fields(got)):
+    for name in got._fields:
         want = np.array([getattr(state, name) for state in states])
         error = np.abs(getattr(got, name) - want)
         if name in angle_names or name == "transmission_angle":
@@ -199,7 +198,7 @@ def test_shapes_and_blocks() -> None:
     assert np.array_equal(got.rocker_velocity.transpose(), sweep.solve(CRANK_ROCKER, grid, 1).rocker_velocity)
     assert sweep.solve(CRANK_ROCKER, 0.5).rocker_angle.shape == ()
     assert sweep.solve(CRANK_ROCKER, np.empty(0), 2).rocker_acceleration.shape == (0,)
-    assert got.rocker_acceleration.size == 0
+    assert math.isnan(got.rocker_acceleration)
     assert sweep.solve(CRANK_ROCKER, [[1.0], [2.0]], 1, velocity=[1.0, 2.0, 3.0]).rocker_velocity.shape == (2, 3)
 
 
@@ -232,9 +231,9 @@ def test_refusal_names_the_first_angle_that_does_not_close() -> None:
 
 def test_every_order_gives_the_same_lower_rates() -> None:
     phi = np.linspace(0.0, 6.0, 50)
-    names = [f.name for f in fields(sweep.FourBarSweep)]
+    names = FourBarState._fields
     full = sweep.solve(DRAG_LINK, phi, 3)
     for order, count in itertools.pairwise((0, 1, 2, 3)):
         part = sweep.solve(DRAG_LINK, phi, order)
         assert all(np.array_equal(getattr(part, n), getattr(full, n)) for n in names[: 3 + 2 * order])
-        assert all(getattr(part, n).size == 0 for n in names[1 + 2 * count :])
+        assert all(math.isnan(getattr(part, n)) for n in names[1 + 2 * count :])

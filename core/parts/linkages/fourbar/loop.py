@@ -23,7 +23,7 @@ from gearlink.core.base.wording import short, unlike, within
 Triangle: TypeAlias = tuple[float, float, float, float, float, float]
 
 
-_BY_ANGLE = (1.0, 0.0, 0.0)
+BY_ANGLE = (1.0, 0.0, 0.0)
 
 
 class Reading(NamedTuple):
@@ -78,7 +78,8 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
     result = [winding + b, winding + c, math.atan2(r, z)]
     if order > 0:
-        result += _in_motion(rates(reading, found, order), motion)
+        by_angle = rates(reading, found, order)
+        result += by_angle if motion == BY_ANGLE else in_motion(by_angle, *motion)
     return result
 
 
@@ -176,11 +177,8 @@ def rates(reading: Any, found: Any, order: int) -> tuple[Any, ...]:
     return b_1, c_1, c_2 - g_2, c_2, c_3 - g_3, c_3
 
 
-def _in_motion(found: tuple[float, ...], motion: tuple[float, float, float]) -> Sequence[float]:
-    """Rates by time, the driving link turning with velocity, acceleration and jerk."""
-    if motion == _BY_ANGLE:
-        return found
-    velocity, acceleration, jerk = motion
+def in_motion(found: Sequence[Any], velocity: Any, acceleration: Any, jerk: Any) -> list[Any]:
+    """Rates by time, the driving link turning with velocity, acceleration and jerk; of numbers, or of arrays."""
     b_1, c_1, *more = found
     result = [velocity * b_1, velocity * c_1]
     if not more:

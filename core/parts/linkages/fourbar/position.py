@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import within
@@ -24,6 +24,8 @@ from gearlink.core.parts.linkages.fourbar.loop import (
     solve_loop,
 )
 
+Number = TypeVar("Number")
+_NOT_ASKED: Any = math.nan
 _CHANGE_POINT_ULPS = 4.0
 
 
@@ -159,39 +161,39 @@ class FourBar:
         return FourBar(self.rocker, self.coupler, self.crank, self.frame, -self.assembly)
 
 
-class FourBarState(NamedTuple):
-    """Four-bar at one crank angle: angles [rad], and rates as far as their order was asked for.
+class FourBarState(NamedTuple, Generic[Number]):
+    """Four-bar at one crank angle, or at an array of them: angles [rad], and rates as far as they were asked for.
 
     The rates are time derivatives for the driving velocity, acceleration and jerk given to `solve`; with its
     defaults they are the derivatives with respect to the crank angle. Rates that were not asked for are NaN.
     """
 
-    coupler_angle: float
-    rocker_angle: float
-    transmission_angle: float
-    coupler_velocity: float = math.nan
-    rocker_velocity: float = math.nan
-    coupler_acceleration: float = math.nan
-    rocker_acceleration: float = math.nan
-    coupler_jerk: float = math.nan
-    rocker_jerk: float = math.nan
+    coupler_angle: Number
+    rocker_angle: Number
+    transmission_angle: Number
+    coupler_velocity: Number = _NOT_ASKED
+    rocker_velocity: Number = _NOT_ASKED
+    coupler_acceleration: Number = _NOT_ASKED
+    rocker_acceleration: Number = _NOT_ASKED
+    coupler_jerk: Number = _NOT_ASKED
+    rocker_jerk: Number = _NOT_ASKED
 
 
-class FourBarInverseState(NamedTuple):
-    """Four-bar at one rocker angle, the rocker driving; fields and rates as in `FourBarState`.
+class FourBarInverseState(NamedTuple, Generic[Number]):
+    """Four-bar at one rocker angle or many, the rocker driving; fields and rates as in `FourBarState`.
 
     `transmission_angle` is that of this drive: the angle ABC between crank and coupler.
     """
 
-    crank_angle: float
-    coupler_angle: float
-    transmission_angle: float
-    crank_velocity: float = math.nan
-    coupler_velocity: float = math.nan
-    crank_acceleration: float = math.nan
-    coupler_acceleration: float = math.nan
-    crank_jerk: float = math.nan
-    coupler_jerk: float = math.nan
+    crank_angle: Number
+    coupler_angle: Number
+    transmission_angle: Number
+    crank_velocity: Number = _NOT_ASKED
+    coupler_velocity: Number = _NOT_ASKED
+    crank_acceleration: Number = _NOT_ASKED
+    coupler_acceleration: Number = _NOT_ASKED
+    crank_jerk: Number = _NOT_ASKED
+    coupler_jerk: Number = _NOT_ASKED
 
 
 def solve(
@@ -202,7 +204,7 @@ def solve(
     velocity: float = 1.0,
     acceleration: float = 0.0,
     jerk: float = 0.0,
-) -> FourBarState:
+) -> FourBarState[float]:
     """Angles of coupler and rocker at a crank angle, and their rates up to the wanted order.
 
     coupler = nu + s atan2(R, n^2 + b^2 - c^2),  rocker = nu + s atan2(R, b^2 - c^2 - n^2),
@@ -243,7 +245,7 @@ def solve_inverse(
     velocity: float = 1.0,
     acceleration: float = 0.0,
     jerk: float = 0.0,
-) -> FourBarInverseState:
+) -> FourBarInverseState[float]:
     """Angles of crank and coupler at a rocker angle, the rocker driving, and their rates.
 
     Parameters

@@ -2,7 +2,8 @@
 
 Frame, names and closed form are those of `core.parts.linkages.fourbar.position`. With t = tan(phi/2) every sum of
 `core.parts.linkages.fourbar.loop`, multiplied by 1 + t^2, is linear in t^2: the sweep needs no sine or cosine, and
-no arc tangent until an angle is asked for.
+no arc tangent until an angle is asked for. What `loop.rates` computes stands here again, in rows that are filled in
+place: that function over arrays takes 1.15 (360 positions) to 2.5 times (3600) as long.
 
 The vector loop by Newton-Raphson is the second way, which checks the closed form.
 
@@ -15,7 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,47 +24,10 @@ from numpy.typing import ArrayLike, NDArray
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.parts.linkages.fourbar.loop import Reading, refusal
-from gearlink.core.parts.linkages.fourbar.position import FourBar, inverse_reading
+from gearlink.core.parts.linkages.fourbar.loop import BY_ANGLE, Reading, in_motion, refusal
+from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarInverseState, FourBarState, inverse_reading
 
 BLOCK = 8192
-
-
-def _not_asked() -> Reals:
-    return np.empty(0)
-
-
-@dataclass(frozen=True, slots=True)
-class FourBarSweep:
-    """Four-bar over crank angles: the fields of `fourbar.FourBarState` as arrays of the shape of the angles.
-
-    Rates that were not asked for are empty arrays.
-    """
-
-    coupler_angle: Reals
-    rocker_angle: Reals
-    transmission_angle: Reals
-    coupler_velocity: Reals = field(default_factory=_not_asked)
-    rocker_velocity: Reals = field(default_factory=_not_asked)
-    coupler_acceleration: Reals = field(default_factory=_not_asked)
-    rocker_acceleration: Reals = field(default_factory=_not_asked)
-    coupler_jerk: Reals = field(default_factory=_not_asked)
-    rocker_jerk: Reals = field(default_factory=_not_asked)
-
-
-@dataclass(frozen=True, slots=True)
-class FourBarInverseSweep:
-    """Four-bar over rocker angles, the rocker driving: `fourbar.FourBarInverseState` as arrays."""
-
-    crank_angle: Reals
-    coupler_angle: Reals
-    transmission_angle: Reals
-    crank_velocity: Reals = field(default_factory=_not_asked)
-    coupler_velocity: Reals = field(default_factory=_not_asked)
-    crank_acceleration: Reals = field(default_factory=_not_asked)
-    coupler_acceleration: Reals = field(default_factory=_not_asked)
-    crank_jerk: Reals = field(default_factory=_not_asked)
-    coupler_jerk: Reals = field(default_factory=_not_asked)
 
 
 def solve(
@@ -74,7 +38,7 @@ def solve(
     velocity: ArrayLike = 1.0,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-) -> FourBarSweep:
+) -> FourBarState[Reals]:
     """Angles of coupler and rocker over an array of crank angles, and their rates up to the wanted order.
 
     Parameters
@@ -84,7 +48,7 @@ def solve(
         velocity, acceleration, jerk : float or array that broadcasts [rad/s, rad/s2, rad/s3] - motion of the
             crank; the defaults give the derivatives with respect to the crank angle
     Returns
-        sweep : FourBarSweep - angles continuous in the crank angle as in `position.solve`
+        sweep : FourBarState - angles continuous in the crank angle as in `position.solve`
     Raises
         NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead centre
     Example
@@ -98,7 +62,7 @@ def solve(
     angle = np.asarray(crank_angle, dtype=np.float64)
     rows = _sweep(linkage.reading, np.ascontiguousarray(angle).ravel(), order, _write_angles, None)
     shaped = [row.reshape(angle.shape) for row in rows]
-    return FourBarSweep(*_driven(shaped, velocity, acceleration, jerk))
+    return FourBarState(*_driven(shaped, velocity, acceleration, jerk))
 
 
 def solve_inverse(
@@ -109,7 +73,7 @@ def solve_inverse(
     velocity: ArrayLike = 1.0,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-) -> FourBarInverseSweep:
+) -> FourBarInverseState[Reals]:
     """Angles of crank and coupler over an array of rocker angles, the rocker driving, and their rates.
 
     Parameters
@@ -118,7 +82,7 @@ def solve_inverse(
         order : 0..3
         velocity, acceleration, jerk : float or array that broadcasts - motion of the rocker
     Returns
-        sweep : FourBarInverseSweep - angles continuous in the rocker angle as in `position.solve_inverse`
+        sweep : FourBarInverseState - angles continuous in the rocker angle as in `position.solve_inverse`
     Raises
         NoSolution - as in `position.solve_inverse`
     Example
@@ -136,7 +100,7 @@ def solve_inverse(
     shaped = [row.reshape(angle.shape) for row in rows]
     coupler, crank, transmission, *rates = _driven(shaped, velocity, acceleration, jerk)
     rates[0::2], rates[1::2] = rates[1::2], rates[0::2]
-    return FourBarInverseSweep(crank, coupler, transmission, *rates)
+    return FourBarInverseState(crank, coupler, transmission, *rates)
 
 
 def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Reals | None = None) -> Reals:
@@ -197,13 +161,9 @@ def least_transmission_angle(crank: Reals, coupler: Reals, rocker: Reals, frame:
 def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:
     """Rows whose derivatives with respect to the driving angle became time derivatives for the driver's motion."""
     motion = (velocity, acceleration, jerk)
-    if all(np.ndim(x) == 0 for x in motion) and motion == (1.0, 0.0, 0.0):
+    if len(rows) == 3 or (all(np.ndim(x) == 0 for x in motion) and motion == BY_ANGLE):
         return rows
-    w, e, j = (np.asarray(x, dtype=np.float64) for x in motion)
-    first, second, third = rows[3:5], rows[5:7], rows[7:9]
-    result = rows[:3] + [w * x for x in first]
-    result += [w * w * y + e * x for x, y in zip(first, second, strict=False)]
-    return result + [w * w * w * z + 3.0 * w * e * y + j * x for x, y, z in zip(first, second, third, strict=False)]
+    return [*rows[:3], *in_motion(rows[3:], *(np.asarray(x, dtype=np.float64) for x in motion))]
 
 
 Scratch = tuple[Reals, ...]
