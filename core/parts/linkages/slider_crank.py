@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
@@ -252,27 +252,29 @@ def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int
     Source
         TY-460 report 2.1; the closed form of the crank is an own derivation
     """
-    cosine, sine = math.cos(psi), math.sin(psi)
-    u = crank * cosine + offset
+    return _depths(psi, crank, rod, offset, order, SCALARS)
+
+
+def _depths(psi: Any, crank: Any, rod: Any, offset: Any, order: int, fn: Elementary) -> tuple[Any, ...]:
+    """Depth and derivatives of one direction or of many; w w' = -u u' with u' = -r sin(psi), differentiated further."""
+    along, across = crank * fn.cos(psi), crank * fn.sin(psi)
+    u = along + offset
     square = (rod - u) * (rod + u)
-    if square < 0.0 or (square == 0.0 and order > 0):
-        raise NoSolution(not_reached(psi, crank, rod, offset))
-    w = math.sqrt(square)
-    depth = w - crank * sine
+    least = square if fn is SCALARS else square.min(initial=math.inf)
+    if least < 0.0 or (least == 0.0 and order > 0):
+        first = psi if fn is SCALARS else psi.flat[int((square < 0.0 if order == 0 else square <= 0.0).argmax())]
+        raise NoSolution(not_reached(math.remainder(first, math.tau), crank, rod, offset))
+    w = fn.sqrt(square)
     if order == 0:
-        return (depth,)
-    u1 = -crank * sine
-    w1 = -u * u1 / w
-    first = w1 - crank * cosine
+        return (w - across,)
+    w1 = u * across / w
     if order == 1:
-        return depth, first
-    u2 = -crank * cosine
-    w2 = -(u1 * u1 + u * u2 + w1 * w1) / w
-    second = w2 + crank * sine
+        return w - across, w1 - along
+    w2 = -(across * across - u * along + w1 * w1) / w
     if order == 2:
-        return depth, first, second
-    w3 = -(3.0 * (u1 * u2 + w1 * w2) - u * u1) / w
-    return depth, first, second, w3 + crank * cosine
+        return w - across, w1 - along, across + w2
+    w3 = -(3.0 * across * along + u * across + 3.0 * w1 * w2) / w
+    return w - across, w1 - along, across + w2, along + w3
 
 
 def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:
@@ -447,51 +449,6 @@ def slider_sweep(psi: ArrayLike, crank: float, rod: float, offset: float = 0.0, 
     """
     import numpy as np
 
-    angles = np.asarray(psi, dtype=np.float64)
-    return slider_at(np.cos(angles), np.sin(angles), crank, rod, offset, order)
+    from gearlink.core.numerics.elementary_sweep import ARRAYS
 
-
-def slider_at(
-    cosine: Reals, sine: Reals, crank: float, rod: float, offset: float = 0.0, order: int = 0
-) -> tuple[Reals, ...]:
-    """The same as `slider_sweep` for crank directions given as unit vectors.
-
-    Parameters
-        cosine, sine : float arrays of one shape [1] - the unit vector along the crank
-        crank, rod, offset : float [mm] - r, L, e (signed)
-        order : 0..3 - derivatives wanted
-    Returns
-        h, h', h'', h''' up to the order : tuple of arrays [mm, mm/rad ... mm/rad^3]
-    Raises
-        NoSolution - when the rod does not reach the slide line at one of the positions
-    Example
-        >>> import numpy as np
-        >>> slider_at(np.array([0.6]), np.array([-0.8]), 50.0, 200.0, 10.0)[0].round(6)
-        array([235.959179])
-
-    Source
-        TY-460 report 2.1; own derivation
-    """
-    import numpy as np
-
-    along, across = crank * cosine, crank * sine
-    u = along + offset
-    square = (rod - u) * (rod + u)
-    reached = square >= 0.0 if order == 0 else square > 0.0
-    if not np.all(reached):
-        first = int(np.argmin(reached))
-        psi = float(np.arctan2(np.ravel(sine)[first], np.ravel(cosine)[first]))
-        raise NoSolution(not_reached(psi, crank, rod, offset))
-    w = np.sqrt(square)
-    depth = w - across
-    if order == 0:
-        return (depth,)
-    w1 = u * across / w
-    if order == 1:
-        return depth, w1 - along
-    w2 = -(across * across - u * along + w1 * w1) / w
-    if order == 2:
-        return depth, w1 - along, across + w2
-    # w w' = -u u' twice more, with u' = -r sin(psi), u'' = -r cos(psi), u''' = r sin(psi)
-    w3 = -(3.0 * across * along + u * across + 3.0 * w1 * w2) / w
-    return depth, w1 - along, across + w2, along + w3
+    return _depths(np.asarray(psi, dtype=np.float64), crank, rod, offset, order, ARRAYS)
