@@ -382,49 +382,10 @@ class Output:
         """Crank angle phi13 until the output is back at its starting position [rad]."""
         return None if self.back_step is None else dwell_angle(self.linkage, self.train, self.back_step)
 
-    def within(self, tolerance: float) -> ToleranceDwell:
-        """The longest dwell within a tolerance [rad] to either side that has an end."""
-        return tolerance_dwell(self.linkage, self.train, tolerance)
-
-
-class ByRoots(Output):
-    """The output of a drive whose teeth keep the ratio of the gears at any length of coupler and rocker."""
-
     @cached_property
     def ahead(self) -> GearTrain:
         """The train counted in the direction of its mean motion, in which turning back has its meaning."""
         return forward(self.linkage, self.train)
-
-    def _speed(self, phi: float) -> float:
-        return output_speed(self.linkage, self.ahead, phi)
-
-    def _angle(self, phi: float) -> float:
-        return output_angle(self.linkage, self.ahead, phi)
-
-    @cached_property
-    def places(self) -> list[float]:
-        """Crank angles of zero output speed [rad], ascending."""
-        extremes = turnings(self._speed, lambda phi: output_acceleration(self.linkage, self.ahead, phi))
-        state = solve(self.linkage, min(extremes, key=lambda one: one.value).place, 1)
-        train = self.ahead
-        terms = (train.ratio, train.coupler_share * state.coupler_velocity, train.rocker_share * state.rocker_velocity)
-        return standstills(self._speed, extremes, STANDSTILL_TOLERANCE * sum(map(abs, terms)))
-
-    @cached_property
-    def back_step(self) -> BackStep | None:
-        """The back-step, where there is one."""
-        found = back_steps(self._speed, self._angle, self.places)
-        return found[0] if found else None
-
-    @cached_property
-    def dwell_angle(self) -> float | None:
-        """Crank angle until the output is back at its starting position [rad]."""
-        step = self.back_step
-        if step is None:
-            return None
-        level = self._angle(step.start)
-        ends = (min(-step.angle, 0.0), self._angle(step.start + _TURN) - level)
-        return bracketed_root(lambda x: self._angle(step.start + x) - level, step.crank_angle, _TURN, ends=ends)
 
     def within(self, tolerance: float) -> ToleranceDwell:
         """The longest dwell within a tolerance [rad] to either side that has an end."""
@@ -434,3 +395,26 @@ class ByRoots(Output):
         least, greatest = (extremes.least_angle, extremes.greatest_angle)[::forward]
         found = longest_in_band(_valley(self.linkage, self.ahead, least, greatest, self.back_step), tolerance)
         return found._replace(output_angle=forward * found.output_angle)
+
+
+class ByRoots(Output):
+    """The output of a drive whose teeth keep the ratio of the gears at any length of coupler and rocker."""
+
+    @cached_property
+    def _course(self) -> Course:
+        return Course(self.linkage, self.ahead, solve(self.linkage, 0.0))
+
+    @cached_property
+    def places(self) -> list[float]:
+        """Crank angles of zero output speed [rad], ascending."""
+        speed, train = self._course.speed, self.ahead
+        extremes = turnings(speed, lambda phi: output_acceleration(self.linkage, train, phi))
+        state = solve(self.linkage, min(extremes, key=lambda one: one.value).place, 1)
+        terms = (train.ratio, train.coupler_share * state.coupler_velocity, train.rocker_share * state.rocker_velocity)
+        return standstills(speed, extremes, STANDSTILL_TOLERANCE * sum(map(abs, terms)))
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """The back-step, where there is one."""
+        found = back_steps(self._course.speed, self._course.angle, self.places)
+        return found[0] if found else None
