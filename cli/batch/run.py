@@ -12,6 +12,7 @@ import hashlib
 import io
 import itertools
 import json
+import math
 import os
 import stat
 import sys
@@ -299,7 +300,7 @@ def _written(value: float | str) -> str:
 
 # Several processes pay when the rest would take this long in one; starting them costs some hundredths of a second.
 _WORTH_SECONDS = 0.15
-_TRIED_FIRST = 16
+_TRIED_FIRST, _FEWEST_TRIED = 16, 4
 _CHUNKS_PER_JOB = 4
 _CHUNK_SECONDS = 0.25
 _LOOK_SECONDS = 0.2
@@ -312,8 +313,8 @@ def run_files(
     """Outcomes of the files that were finished, and whether the user interrupted; `lines` are written meanwhile.
 
     Notes
-        A sample from the whole list runs here, until it has taken as long as several processes take to pay; how long
-        it takes decides whether they do for the rest.
+        A sample from the whole list runs here, until it has taken as long as several processes take to pay, or the
+        rest would, were each file as quick as the quickest; how long it takes decides whether they do for the rest.
     """
     results: list[Outcome] = []
     shown = progress(len(files), "designs", quiet=options.design.quiet)
@@ -339,12 +340,16 @@ def _each(files: Sequence[Path], options: BatchOptions) -> Generator[tuple[int, 
     if options.dask:
         yield from _on_cluster(files, options)
         return
-    start, tried = perf_counter(), 0
+    start, tried, quickest = perf_counter(), 0, math.inf
     stride = 1 if options.jobs == 1 else max(1, len(files) // _TRIED_FIRST)
     for path in files[::stride]:
+        begun = perf_counter()
         yield 1, outcomes(path, options)
-        tried += 1
-        if options.jobs != 1 and perf_counter() - start > _WORTH_SECONDS:  # a folder of searches takes them all
+        tried, now = tried + 1, perf_counter()
+        quickest = min(quickest, now - begun)
+        # a folder of searches takes them all; the first of each kind imports what the others find
+        rest_takes = 0.5 * quickest * (len(files) - tried) if tried >= _FEWEST_TRIED else 0.0
+        if options.jobs != 1 and max(now - start, rest_takes) > _WORTH_SECONDS:
             break
     rest = [path for i, path in enumerate(files) if i % stride or i >= tried * stride]
     seconds_each = (perf_counter() - start) / max(1, tried)

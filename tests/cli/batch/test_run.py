@@ -354,6 +354,39 @@ def test_files_that_take_their_time_are_left_to_the_processes(tmp_path: Path, mo
     assert [Path(outcome.file).name for outcome in found if outcome.kind == "here"] == ["00"]
 
 
+@pytest.mark.parametrize(
+    ("seconds", "here"),
+    [([0.1, 0.01], 4), ([0.01], 4), ([0.1], 2), ([0.1, 0.001], 17)],
+    ids=["quick but for imports", "alike", "slow", "hardly anything but imports"],
+)
+def test_processes_begin_as_soon_as_the_rest_is_known_to_take_its_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seconds: list[float], here: int
+) -> None:
+    from gearlink.cli.batch import run
+    from gearlink.cli.batch.options import BatchOptions
+    from gearlink.cli.batch.summary import Outcome
+
+    clock, left = [0.0], iter([*seconds, *[seconds[-1]] * 100])
+
+    def outcome(path: Path, _: BatchOptions) -> list[Outcome]:
+        clock[0] += next(left)
+        return [Outcome(str(path), "", path.stem, "", 0)]
+
+    begun: list[int] = []
+
+    def processes(chunks: list[Any], options: BatchOptions, jobs: int) -> Iterator[tuple[int, list[Outcome]]]:
+        begun.append(sum(map(len, chunks)))
+        yield from ()
+
+    monkeypatch.setattr(run, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(run, "outcomes", outcome)
+    monkeypatch.setattr(run, "processors", lambda: 2)
+    monkeypatch.setattr(run, "_in_processes", processes)
+    results, _ = run.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions())
+    assert begun == [100 - here]
+    assert len(results) == here
+
+
 def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The system's limit of processes or open files is reached."""
 
