@@ -89,11 +89,14 @@ def parts(incomplete: str) -> Offer:
 
 def sheets(incomplete: str) -> Offer:
     """Further sheets of the design file on the line."""
+    from gearlink.cli.export.options import is_cut
+
     names = [name for kind in _kinds() for name in kind.all_sheets]
     each = ("tornado", *(("zone", "contact", "drawing-1", "drawing-2") if "drawing" in names else ()))
     if re.search(r"^fingers\b", next(_texts(_words()), ""), re.MULTILINE):
         each = (*each, "drawing-3")
-    return _beginning(incomplete, ((name, "") for name in (*names, *each)))
+    cut = (f"drawing-{name}" for kind in _kinds() if kind.cut for name, _ in parts("") if is_cut(kind, name))
+    return _beginning(incomplete, ((name, "") for name in (*names, *each, *cut)))
 
 
 def places(incomplete: str) -> Offer:

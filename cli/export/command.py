@@ -29,7 +29,7 @@ from gearlink.cli.evaluate import (
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import Contour, describe, design_hash, error_name, rounded_up, rows_of
-from gearlink.cli.export.options import CONTOUR, DEFAULT_TOLERANCE, CurveForm, Export, FileFormat
+from gearlink.cli.export.options import CONTOUR, DEFAULT_TOLERANCE, PATH, CurveForm, Export, FileFormat
 from gearlink.cli.export.sampling import Sampled, TooFine
 from gearlink.cli.files import CannotWrite, in_place, safe_stem, write_atomically
 from gearlink.cli.options import Options
@@ -53,7 +53,7 @@ def run_export(source: str, asked: Export) -> int:
     """
     try:
         loaded, kind = open_design(source, asked.options)
-        paths = bool(kind.motion) and any(name.startswith(parts.PATH) for name in asked.parts)
+        paths = bool(kind.motion) and any(name.startswith(PATH) for name in asked.parts)
         if kind.name not in (known := parts.kinds()) and not paths:
             raise wrong_kind(loaded, f"a {kind.name} has no profile to export; kinds that have one: {first_of(known)}")
         spec = read_spec(loaded, kind, source)

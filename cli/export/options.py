@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 from gearlink.cli.options import Options
+
+if TYPE_CHECKING:
+    from gearlink.core.base.kind import Kind
 
 LEAST_TOLERANCE = 1e-5
 MOST_TOLERANCE = 10.0
@@ -14,6 +19,8 @@ DEFAULT_TOLERANCE = 0.001
 
 CONTOUR = "blocking_contour"
 """As --part takes the blocking contour of a gear pair, which is no profile: as svg or csv."""
+PATH = "PATH-"
+"""Begins the name of the path of a point of a link, which can be asked for of all that moves."""
 
 
 class FileFormat(StrEnum):
@@ -31,6 +38,12 @@ class CurveForm(StrEnum):
 
     POLYLINE = "polyline"
     SPLINE = "spline"
+
+
+def is_cut(kind: Kind, part: str, cams: Collection[str] = ()) -> bool:
+    """Whether the workshop drawing of a part shows it alone: disc cams have drawings with their followers."""
+    followed = ("main_cam", "return_cam") if "drawing" in kind.sheets else cams
+    return kind.cut and part != CONTOUR and not part.startswith(PATH) and part not in followed
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.export.contour import JOIN, Circle, Part
+from gearlink.cli.export.options import PATH
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.kind import load
@@ -1075,8 +1076,6 @@ def is_external(cam: AnyCam) -> bool:
 
 _RATES = ("velocity", "acceleration")
 _LOOKS = 36
-PATH = "PATH-"
-"""Begins the name of the path of a point of a link, which can be asked for of all that moves."""
 
 
 def coupler_path(design: Any) -> Makers:

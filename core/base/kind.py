@@ -39,6 +39,7 @@ class Kind(NamedTuple):
         drawn : commands that all kinds share and whose picture is its own all the same
         picture, scene : str - what draws its own commands, what builds its animation; "": what any motion has
         profiles, parts : str, (names) - what makes the parts that `export` takes; their names, where a kind fixes them
+        cut : bool - whether its parts have workshop drawings, as gears do; disc cams have them with their followers
         rexs : (names) or None - its gears in REXS, in the order of the file; (): as the file names them; None: no pair
         sheets : dict - what gives the content of a sheet, by its name; "": it has not the one that any motion has
         worked : str - stem of the example to begin with, where it is not called as the kind
@@ -61,6 +62,7 @@ class Kind(NamedTuple):
     scene: str = ""
     profiles: str = ""
     parts: tuple[str, ...] = ()
+    cut: bool = False
     rexs: tuple[str, ...] | None = None
     sheets: Mapping[str, str] = {}
     worked: str = ""

@@ -150,7 +150,7 @@ def test_design_commands(gearlink: Any, hostile: Path, form: str) -> None:
 
 def test_every_error_of_a_file_is_shown(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "x.yaml"
-    path.write_text("kind: slider-crank\nstroke: a\nrodd: 5\noffset: [1]\n")
+    path.write_text("kind: slider-crank\nstroke: a\nrodd: 5\noffset: [1]\nspeed: {}\n")
     codes = [(e["code"], e["line"]) for e in gearlink("check", path, "--format", "json").json["errors"]]
     assert len(codes) == 4
     for form in ("table", "csv", "md", "json", "jsonl", "junit", "sarif", "github"):

@@ -189,7 +189,7 @@ def test_a_solved_law_is_saved_and_read_without_a_solver(gearlink: Any, tmp_path
         ("{type: optimal, minimize: jerk, acceleration: 4.1}", "law"),
         ("{type: optimal, minimize: residual, band: [2, 4]}", "law.acceleration"),
         ("{type: optimal, minimize: jerk, degree: 8}", "law.degree"),
-        ("{type: optimal, minimise: jerk}", "law.minimize"),
+        ("{type: optimal, minimise: jerk}", "law.minimise"),
         ("{type: bernstein, acceleration: [0, 1, 0]}", "law.acceleration"),
     ],
 )

@@ -110,8 +110,8 @@ class TestErrors:
         with pytest.raises(gearlink.GearlinkError, match="unknown key 'rood'") as caught:
             gearlink.load(path)
         error = caught.value
-        assert (error.file, error.line, error.column, error.key) == (str(path), 1, 1, "rod")
-        assert [d.line for d in error.diagnostics] == [1, 3]
+        assert (error.file, error.line, error.column, error.key) == (str(path), 3, 1, "rood")
+        assert [d.line for d in error.diagnostics] == [3]
 
     def test_refusal_has_its_place(self, tmp_path: Path) -> None:
         path = tmp_path / "long.yaml"

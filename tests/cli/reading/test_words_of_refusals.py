@@ -99,7 +99,7 @@ def test_the_help_of_a_key_says_its_name_once(gearlink: Any, key: str) -> None:
 
 
 def test_a_kind_without_sheets_is_told_which_have_some(gearlink: Any) -> None:
-    ended = gearlink("sheet", DESIGNS / "gear_pair.yaml", "drawing")
+    ended = gearlink("sheet", DESIGNS / "six_bar_two_trains.yaml", "drawing")
     assert "the kinds with sheets are three-gear-four-bar" in " ".join(ended.err.split())
 
 

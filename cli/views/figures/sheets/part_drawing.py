@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.export.contour import Contour, Part, contour
-from gearlink.cli.export.options import CurveForm
-from gearlink.cli.export.parts import PATH, makers
+from gearlink.cli.export.options import CurveForm, is_cut
+from gearlink.cli.export.parts import makers
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.gears import gear_text, ruled
 from gearlink.cli.views.figures.sheets import cam_sheets, paper, true_size
 from gearlink.core.base.errors import MissingSection
+from gearlink.core.base.kinds import KINDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,11 +28,6 @@ if TYPE_CHECKING:
 
     from gearlink.core.numerics.arrays import Points
 
-KINDS_DRAWN = (
-    "three-gear-four-bar", "two-gear-four-bar", "geared-rocker", "geared-five-bar", "geared-six-bar", "gear-pair",
-    "hypocycloid-dwell", "mutilated-gear-dwell", "slider-crank", "planar-mechanism", "flatbed-press", "wide-swing-cam",
-)  # fmt: skip
-"""Kinds with gears, and the one whose cams are profiles of a stroke; others have drawings of their cams, or none."""
 _LINES: dict[str, dict[str, Any]] = {
     "PROFILE": {"width": 0.35, "gid": "profile"},
     "PITCH_CURVE": {"width": 0.18, "linestyle": style.CHAIN, "gid": "pitch curve"},
@@ -55,13 +51,13 @@ _A4_ROWS = 240
 
 def drawn(design: Any) -> dict[str, Callable[[], Figure]]:
     """What draws each part, by its name; closed disc cams have drawings with their followers instead."""
-    if design.kind not in KINDS_DRAWN:
+    if not KINDS[design.kind].cut:
         return {}
     parts = {}
     with suppress(MissingSection):
         parts = makers(design)
-    cams = ("main_cam", "return_cam") if design.kind == "flatbed-press" else getattr(design.spec, "cams", None) or ()
-    chosen = [name for name in parts if not name.startswith(PATH) and name not in cams]
+    kind, cams = KINDS[design.kind], getattr(design.spec, "cams", None) or ()
+    chosen = [name for name in parts if is_cut(kind, name, cams)]
     return {name: partial(draw, design, parts[name], f"{k} / {len(chosen)}") for k, name in enumerate(chosen, start=1)}
 
 
