@@ -467,7 +467,7 @@ def _export(
         typer.Option(
             "--part",
             metavar="NAME",
-            help="main_cam, gear1, PATH-POINT of a link, blocking_contour ... (repeatable)",
+            help="main_cam, cutter, gear1, PATH-POINT of a link, blocking_contour ... (repeatable)",
             autocompletion=offers("parts"),
         ),
     ] = [],  # noqa: B006

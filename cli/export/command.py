@@ -37,6 +37,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
+from gearlink.cli.render.csv_report import table_rows
 from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.base.kind import load
@@ -349,8 +350,7 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
             table, error = servo_table(motion, count, rocks=design.rocks), greatest_error(motion, count)
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(table.columns)
-        writer.writerows(table.rows())
+        writer.writerows(table_rows(table))
         path = options.out / f"{safe_stem(spec.name)}-cam-table.csv"
         write_atomically(path, lambda stream: stream.write(text.getvalue().encode()))
     except (DesignFileError, CannotWrite) as refused:

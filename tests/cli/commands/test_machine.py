@@ -109,6 +109,6 @@ def test_sheets_film_page_and_table_of_a_drive(gearlink: Any, files: Path) -> No
     assert gearlink("sheet", machine, "timing", "--plot-format", "svg", *out).status == 0
     assert {"machine-timing-line.svg", "machine-timing-circle.svg"} <= {path.name for path in files.iterdir()}
     assert gearlink("export", machine, "--cam-table", "--set", "servo={member: feed, rows: 37}", *out).status == 0
-    assert (files / "machine-cam-table.csv").read_text().startswith("master_position,slave_position")
+    assert (files / "machine-cam-table.csv").read_text().startswith("master_position [deg],slave_position [")
     missing = gearlink("export", machine, "--cam-table", "--format", "json", *out)
     assert missing.status == 2

@@ -20,7 +20,10 @@ def test_the_table_of_a_drive(gearlink: Any, tmp_path: Path) -> None:
     assert done.status == 0
     assert "37 rows" in done.out
     with (tmp_path / "loaded-cam-cam-table.csv").open() as file:
-        rows = list(csv.DictReader(file))
+        head, *cells = csv.reader(file)
+    assert head == ["master_position [deg]", "slave_position [deg]", "slave_velocity [deg/deg]",
+                    "slave_acceleration [deg/deg^2]", "slave_jerk [deg/deg^3]"]  # fmt: skip
+    rows = [dict(zip((name.partition(" ")[0] for name in head), row, strict=True)) for row in cells]
     assert [float(row["master_position"]) for row in rows] == pytest.approx(np.linspace(0.0, 360.0, 37), rel=1e-14)
     # the polynomial of degree 5 through two rows meets the law between them
     names = [f"slave_{name}" for name in ("position", "velocity", "acceleration")]
