@@ -26,12 +26,11 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
-from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, Valley, least_band, longest_in_band
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import BackStep, Turning
+from gearlink.core.parts.linkages.standstills import BackStep, Turning, gain, regained
 
 _AT_CHANGE_POINT = 1e-10  # for limits of the teeth, which approach theirs with the root of this share
 
@@ -241,20 +240,7 @@ def back_step(drive: PlanetLinkage) -> BackStep | None:
     if not steps:
         return None
     step = max(steps, key=lambda one: one.angle)
-    return step._replace(angle=-_gain(drive, _strip(drive), step.start, step.end))
-
-
-def _strip(drive: PlanetLinkage) -> float:
-    """How far from the real crank angles the speed is analytic [rad]: to a dead centre, and to where B meets D."""
-    links = drive.linkage
-    return min(links.min_transmission_angle(), abs(math.log(links.frame / links.crank)))
-
-
-def _gain(drive: PlanetLinkage, strip: float, start: float, end: float) -> float:
-    """Output angle gained from one crank angle to another, over a short way as the integral of the speed."""
-    if abs(end - start) < 0.5 * strip:
-        return integral(drive.speed, start, end)
-    return drive.angle(end) - drive.angle(start)
+    return step._replace(angle=-gain(drive, step.start, step.end))
 
 
 def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
@@ -296,11 +282,7 @@ def window_of(drive: PlanetLinkage) -> float:
     step = back_step(drive)
     if step is None or step.angle <= 0.0:  # one of rounding, at the momentary dwell itself
         return 0.0
-    strip, start, end = _strip(drive), step.start, step.end
-    ends = (-step.angle, drive.angle(start + _TURN) - drive.angle(start))
-    before = bracketed_root(lambda x: _gain(drive, strip, end - x, end), step.crank_angle, _TURN, ends=ends)
-    after = bracketed_root(lambda x: _gain(drive, strip, start, start + x), step.crank_angle, _TURN, ends=ends)
-    return before + after - step.crank_angle
+    return regained(drive, step, backwards=True) + regained(drive, step) - step.crank_angle
 
 
 def solved(

@@ -33,17 +33,21 @@ from gearlink.core.machines.three_gear.motion import (
     forward,
     mean_ratio,
     output_acceleration,
-    output_angle,
     output_jerk,
     output_speed,
     speed_extremes,
 )
 from gearlink.core.numerics.elementary import SCALARS, Elementary
-from gearlink.core.numerics.gauss import integral
-from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.parts.linkages.standstills import BackStep, back_steps, standstills, turnings
+from gearlink.core.parts.linkages.standstills import (
+    BackStep,
+    back_steps,
+    gain,
+    regained,
+    standstills,
+    turnings,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell, Valley
@@ -153,7 +157,7 @@ def back_step(linkage: FourBar, train: GearTrain) -> BackStep:
     if output_acceleration(linkage, train, start) > 0.0:
         start, end = end, start
     width = wrap(end - start)
-    return BackStep(start, end, width, -gain(linkage, train, start, width))
+    return BackStep(start, end, width, -gain(course(linkage, train), start, start + width))
 
 
 def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
@@ -165,8 +169,6 @@ def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
         step : BackStep - from `back_step`
     Returns
         phi13 : float [rad] - phi12 < phi13 < 2 pi
-    Notes
-        Bracketed root between phi(2) and one revolution after phi(1): the output rises there all the way.
     Example
         >>> linkage, train = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
         >>> round(math.degrees(dwell_angle(linkage, train, back_step(linkage, train))), 9)
@@ -175,21 +177,12 @@ def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
     Source
         own derivation; thesis (4-17) takes 1.5 phi12
     """
-    train = forward(linkage, train)
-    ends = (min(-step.angle, 0.0), gain(linkage, train, step.start, 2.0 * math.pi))
-    return bracketed_root(lambda x: gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi, ends=ends)
+    return regained(course(linkage, forward(linkage, train)), step)
 
 
-def gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> float:
-    """Output angle gained over a crank interval, without cancellation where the interval is short.
-
-    The speed is analytic in a strip around the real crank angles: gamma reaches 0 or pi, or B reaches D, no nearer to
-    the axis than the minimum transmission angle and |ln(d/a)| (ad < bc in a linkage that turns).
-    """
-    strip = min(linkage.min_transmission_angle(), abs(math.log(linkage.frame / linkage.crank)))
-    if length < 0.5 * strip:
-        return integral(lambda phi: output_speed(linkage, train, phi), start, start + length)
-    return output_angle(linkage, train, start + length) - output_angle(linkage, train, start)
+def course(linkage: FourBar, train: GearTrain) -> Course:
+    """The output over the crank angle."""
+    return Course(linkage, train, solve(linkage, 0.0))
 
 
 def _radii(linkage: FourBar, train: GearTrain) -> tuple[float, float, float]:
@@ -329,7 +322,7 @@ def _valley(linkage: FourBar, train: GearTrain, least: float, greatest: float, s
     first, second = (least, least) if step is None else (step.start, step.start + step.crank_angle)
     after = first + (greatest - first) % _TURN
     return Valley(
-        Course(linkage, train, solve(linkage, 0.0)),
+        course(linkage, train),
         first,
         second,
         first + (least - first) % _TURN,
@@ -402,7 +395,7 @@ class ByRoots(Output):
 
     @cached_property
     def _course(self) -> Course:
-        return Course(self.linkage, self.ahead, solve(self.linkage, 0.0))
+        return course(self.linkage, self.ahead)
 
     @cached_property
     def places(self) -> list[float]:

@@ -28,7 +28,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike, within
-from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, valley
+from gearlink.core.machines.three_gear.dwell import back_step, course, dwell_angle, valley
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     eccentricity_for_frame,
@@ -43,7 +43,7 @@ from gearlink.core.machines.three_gear.momentary import (
 from gearlink.core.machines.three_gear.motion import GearTrain, forward, output_angle, speed_extremes
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import BackStep, Turning
+from gearlink.core.parts.linkages.standstills import BackStep, Turning, regained
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.design import ThreeGearFourBar
@@ -299,8 +299,7 @@ def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
     given, train = train, forward(linkage, train)
     step = back_step(linkage, train)
     end = step.start + step.crank_angle
-    ends = (min(-step.angle, 0.0), gain(linkage, train, end - 2.0 * math.pi, 2.0 * math.pi))
-    before = bracketed_root(lambda x: gain(linkage, train, end - x, x), step.crank_angle, 2.0 * math.pi, ends=ends)
+    before = regained(course(linkage, train), step, backwards=True)
     after = dwell_angle(linkage, train, step)
     start = wrap(end - before)
     middle = output_angle(linkage, train, start) + 0.5 * step.angle

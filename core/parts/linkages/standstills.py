@@ -11,6 +11,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from gearlink.core.base.design import placed
+from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, roots_on
 
 
@@ -158,6 +159,34 @@ def standstills(
         (lows, first), (highs, last) = (zip(*side, strict=True) for side in zip(*between, strict=True))
         places += roots(speed, lows, highs, (first, last))
     return sorted(place if period is None else place % period for place in places)
+
+
+def gain(course: Any, start: float, end: float) -> float:
+    """Output angle gained between crank angles [rad], without cancellation where they are near.
+
+    The speed is analytic in a strip around the real crank angles: gamma reaches 0 or pi, or B reaches D, no nearer to
+    the axis than the minimum transmission angle and |ln(d/a)| (ad < bc in a linkage that turns).
+
+    Parameters
+        course : the output of a four-bar, with linkage, angle(phi) and speed(phi)
+    """
+    links, way = course.linkage, 2.0 * abs(end - start)
+    if way < 0.5 * math.pi and way < min(links.min_transmission_angle(), abs(math.log(links.frame / links.crank))):
+        return integral(course.speed, start, end)
+    return float(course.angle(end) - course.angle(start))
+
+
+def regained(course: Any, step: BackStep, *, backwards: bool = False) -> float:
+    """Crank angle from the start of a back-step until the output is back at its place, or from its end backwards [rad].
+
+    The output of `course`, as of `gain`, rises outside of the back-step all the way: a bracketed root.
+    """
+    start, end = step.start, step.start + step.crank_angle
+
+    def gained(x: float) -> float:
+        return gain(course, end - x, end) if backwards else gain(course, start, start + x)
+
+    return bracketed_root(gained, step.crank_angle, TURN, ends=(min(-step.angle, 0.0), gained(TURN)))
 
 
 def back_steps(speed: Function, angle: Function, places: list[float]) -> list[BackStep]:
