@@ -1205,6 +1205,10 @@ class WideSwingDesign(Design):
 
     def table_balance(self, _samples: int | None = None) -> Table:
         """Torque on the rocker axis with and without the device, over the speed."""
+        return self._balance
+
+    @cached_property
+    def _balance(self) -> Table:
         from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio
 
         share, spec = _speed_shares(), self.spec
