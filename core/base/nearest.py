@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 _LETTERS_FOR_A_SLIP = 4
+_BETWEEN = re.compile(r"[\s_-]+")
 
 
 def near_names(word: str, names: Iterable[str], most: int = 3) -> list[str]:
@@ -19,6 +20,8 @@ def near_names(word: str, names: Iterable[str], most: int = 3) -> list[str]:
         >>> known = ["path_height", "two-gear-four-bar", "sliding", "crank_length", "place"]
         >>> near_names("height", known), near_names("four-bar", known), near_names("crank_lenght", known)
         (['path_height'], ['two-gear-four-bar'], ['crank_length'])
+        >>> near_names("transmision angle", ["min_transmission_angle", "transmission-angle"])
+        ['transmission-angle', 'min_transmission_angle']
         >>> near_names("indexing", known), near_names("space", known)
         ([], [])
     """
@@ -32,7 +35,7 @@ def near_names(word: str, names: Iterable[str], most: int = 3) -> list[str]:
 def _off(asked: str, name: str) -> int:
     """By how many slips a name is off, 0 for one that has the words that are asked for; -1 where it is not near."""
     most = max(1, len(asked) // _LETTERS_FOR_A_SLIP)
-    whole = slips(asked, name, most)
+    whole = slips(_BETWEEN.sub(" ", asked), _BETWEEN.sub(" ", name), most)  # a hyphen for a blank is no slip
     if whole >= 0:
         return whole
     words, given = _words(name), _words(asked)
