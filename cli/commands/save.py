@@ -140,13 +140,35 @@ def complete(
             put(data, found.path, None)
             continue
         value, words = _rounded(found.value, found.path, units, step)
-        notes |= {path: "; ".join(w for w in (found.why, word) if w) for path, word in words.items()}
+        for path, word in words.items():
+            own = part_at(found.value, path.removeprefix(found.path).lstrip("."))
+            given = _given(loaded.data, path, own) if found.why.startswith("found") else ""
+            if given != path:  # else it is as the file has it
+                why = f"given as {given}" if given else found.why
+                notes[path] = "; ".join(w for w in (why, word) if w)
         put(data, found.path, value)
     _write_units(data, loaded)
     data["name"] = stem_of(file) if "name" not in loaded.data and file != STREAM else design.spec.name
     head = [f"{data['name']}: `gearlink {command} {loaded.file}` (gearlink {VERSION})"]
     head += [f"required: {path}: {flow(value)}" for path, value in left_out]
     return written(kind, _ordered(data, dict.fromkeys(_KEY_ORDER) | dict(_with_links(loaded.data))), head, notes)
+
+
+def _given(data: Any, path: str, value: Any, before: str = "") -> str:
+    """Where a file gives the number that was to be found: under this key, or one of its name elsewhere; "" if nowhere.
+
+    Example
+        >>> _given({"dwell": {"crank": 30, "window": 70.0}}, "links.crank", 30.0)
+        'dwell.crank'
+    """
+    found = ""
+    for key, inner in data.items():
+        place = f"{before}.{key}".lstrip(".")
+        if isinstance(inner, Mapping):
+            found = found or _given(inner, path, value, place)
+        elif key == path.rpartition(".")[2] and inner == value and isinstance(value, (int, float)):
+            found = found if found and place != path else place
+    return found
 
 
 def _write_units(data: dict[str, Any], loaded: LoadedFile) -> None:

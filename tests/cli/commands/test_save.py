@@ -99,6 +99,21 @@ def test_comments_name_unit_meaning_source_and_rounding(gearlink: Any, tmp_path:
     assert spec_of(path).links.frame == 114.85
 
 
+@pytest.mark.parametrize(
+    ("command", "name", "given"),
+    [
+        (("synth", "swing"), "crank_rocker.yaml", "frame: 120                    # mm: frame AD; given as swing.frame"),
+        (("synth", "dwell", "--set", "dwell.crank=30"), "standing_feed.yaml", "# mm: crank AB; given as dwell.crank"),
+    ],
+)
+def test_what_the_file_gives_is_not_called_found(
+    gearlink: Any, designs: Path, command: tuple[str, ...], name: str, given: str
+) -> None:
+    text = gearlink(*command[:2], designs / name, *command[2:], "--save", "-").out
+    assert given in text
+    assert text.count("found by synth") >= 2
+
+
 @pytest.mark.slow
 def test_a_rounding_that_breaks_a_check_is_said(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "full.yaml"
