@@ -364,6 +364,8 @@ def _read(source: str, asked: Exploring) -> Problem:
     loaded, kind = open_design(source, asked.options)
     require_command(loaded, kind, "explore")
     spec = read_spec(loaded, kind, source)
+    if asked.options.strict:  # of the designs as well, not of the study alone
+        spec = spec.model_copy(update={"checks": spec.checks.model_copy(update={"warn_counts": True})})
     try:
         made = problem(spec)
         made.order  # noqa: B018 - refused here, where its places in the file are known

@@ -89,6 +89,14 @@ def test_none_feasible_is_exit_1_and_a_warning_is_with_strict(gearlink: Any, wri
     assert [gearlink("explore", study, *more).status for more in ((), ("--strict",))] == [0, 1]
 
 
+def test_strict_counts_the_warnings_of_the_designs(gearlink: Any, designs: Path) -> None:
+    """Within 5 deg of the limit of the transmission angle a design warns."""
+    variables = "variables={dwell.window: {from: 60, to: 70, step: 5}, limits.transmission_angle: {values: [50, 58]}}"
+    line = ("explore", designs / "studies" / "dwell_window.yaml", "--quiet", "--set", variables)
+    for more, count in (((), 6), (("--strict",), 3), (("--set", "checks.warn_counts=true"), 3)):
+        assert f"{count} satisfy everything" in gearlink(*line, *more).out
+
+
 def test_the_base_may_be_a_file(gearlink: Any, written: Any, designs: Path) -> None:
     study = written(design=None, of=str(designs / "candy_feed.yaml"))
     study.write_text(study.read_text().replace("design: null\n", ""))
