@@ -176,8 +176,12 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     if command in kind.commands:
         return
     message = f"`{command}` does not apply to a {kind.name}; available for this kind: {', '.join(kind.commands)}"
-    serves = [name for name, other in FILES.items() if command in other.commands]
-    help = f"`{command}` serves {first_of(serves)}; `gearlink new {serves[0]}` writes such a file" if serves else ""
+    alike = set(kind.name.split("-"))
+    takers = [name for name, other in FILES.items() if command in other.commands]
+    takers.sort(key=lambda name: -len(alike.intersection(name.split("-"))))  # a cam's first where a cam was given
+    help = (
+        f"kinds with `{command}`: {first_of(takers)}; `gearlink new {takers[0]}` writes a file of one" if takers else ""
+    )
     raise DesignFileError([loaded.report("GL113", message, ("kind",), help=help)])
 
 
@@ -191,8 +195,10 @@ def _unknown_name(error: UnknownName) -> Diagnostic:
     from gearlink.core.base.nearest import near_quantities
 
     near = near_quantities(error.name, error.known)
-    shown = _LISTED if error.what == "quantity" else len(error.known)
-    first, more = error.known[:shown], len(error.known) - shown
-    listed = f"known: {', '.join(first)}" + (f", and {more} more, which --all shows" if more > 0 else "")
+    plain = [name for name in error.known if "." not in name]  # those of each mesh are many, and the same again
+    shown = _LISTED if error.what == "quantity" else len(plain)
+    more = f", and {len(plain) - shown} more, which --all shows" if len(plain) > shown else ""
+    listed = f"known: {', '.join(plain[:shown])}{more}"
+    listed += ", and those of a mesh as MESH.NAME" if plain != [*error.known] else ""
     remedy = f"nearest: {', '.join(near)}" if near else listed
     return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)

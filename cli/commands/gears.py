@@ -67,7 +67,8 @@ def gears(
     x1 is shared for equal sliding; margin is the distance of x1 from undercut, a thin tip, a root fillet or a small
     contact ratio, negative beyond one. Of more than 1000 pairs the nearest to the ratio are shown.
     With --torque and --speed each pair is rated by ISO 6336: the minimum face width that carries the load for the life
-    with S_H 1 and S_F 1.4, the narrowest first. Exit status 1: no pair meets the conditions.
+    with S_H 1 and S_F 1.4, the narrowest first. Widths are whole mm from a quarter of the maximum (--width-ratio) on,
+    and from 4 mm on. Exit status 1: no pair meets the conditions.
 
     Examples: gearlink gears --ratio 3.2 --center-distance 120
 

@@ -6,6 +6,7 @@ import math
 import os
 import re
 import sys
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -286,15 +287,48 @@ def show_table(
     if step == 1:
         table, cells = with_intervals(table, cells)
     for columns in _folds(table, cells, console.width):
+        lines, wrapped = _wrapped(table, cells, columns, console.width)
         grid = grid_for(console)
         for i in columns:
             unit = "" if table.units[i] in ("", "1") else f"\n{table.units[i]}"
-            grid.add_column(
-                table.columns[i].replace("_", "\n") + unit, justify="right", no_wrap=True, vertical="bottom"
-            )
+            side: JustifyMethod = "left" if i == wrapped else "right"
+            head = table.columns[i].replace("_", "\n") + unit
+            grid.add_column(head, justify=side, no_wrap=True, vertical="bottom")
         # A column is one cell of many lines: rich takes as long for a cell as for a hundred lines.
-        grid.add_row(*(Text("\n".join(visible(row[i]) for row in cells)) for i in columns))
+        grid.add_row(*(Text("\n".join(visible(row[k]) for row in lines)) for k in range(len(columns))))
         show_grid(grid, console)
+
+
+def _wrapped(
+    table: Table, cells: Sequence[Sequence[str]], columns: Sequence[int], width: int
+) -> tuple[list[list[str]], int | None]:
+    """The cells of some columns in lines: of texts that are too wide for the width the widest goes on below.
+
+    Returns
+        lines, wrapped : the column that goes on below, None where all fit
+    """
+    need = _needs(table, cells)
+    lines = [[row[i] for i in columns] for row in cells]
+    texts = [i for i in columns if any(" " in row[i] or "," in row[i] for row in cells)]
+    over = sum(need[i] for i in columns) - width
+    if over <= 0 or not texts:
+        return lines, None
+    widest = max(texts, key=lambda i: need[i])
+    place, room = columns.index(widest), max(_LEAST_TEXT, need[widest] - _BETWEEN - over)
+    found: list[list[str]] = []
+    for row in lines:
+        first, *more = textwrap.wrap(row[place], room, break_on_hyphens=False) or [""]
+        found.append([*row[:place], first, *row[place + 1 :]])
+        found += [[*[""] * place, part, *[""] * (len(row) - place - 1)] for part in more]
+    return found, widest
+
+
+def _needs(table: Table, cells: Sequence[Sequence[str]]) -> list[int]:
+    """What each column takes."""
+    return [
+        max(len(part) for part in [*head.split("_"), unit, *(row[i] for row in cells)]) + _BETWEEN
+        for i, (head, unit) in enumerate(zip(table.columns, table.units, strict=True))
+    ]
 
 
 def _by_mesh(table: Table) -> Iterator[Table]:
@@ -308,10 +342,7 @@ def _by_mesh(table: Table) -> Iterator[Table]:
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:
     """Groups of columns that fit the width; the columns that name the rows open each group."""
-    need = [
-        max(len(part) for part in [*head.split("_"), unit, *(row[i] for row in cells)]) + 3
-        for i, (head, unit) in enumerate(zip(table.columns, table.units, strict=True))
-    ]
+    need = _needs(table, cells)
     first = list(range(_naming(cells, need, width)))
     opening = sum(need[i] for i in first)
     folds: list[list[int]] = [first[:]]

@@ -157,7 +157,7 @@ def test_command_that_does_not_fit_the_kind(gearlink: Any, crank: Path) -> None:
     ended = gearlink("press", crank)
     assert ended.status == ExitCode.WRONG_INPUT
     assert "crank" in ended.err
-    assert "`press` serves flatbed-press; `gearlink new flatbed-press` writes such a file" in ended.err
+    assert "kinds with `press`: flatbed-press; `gearlink new flatbed-press` writes a file of one" in ended.err
 
 
 def test_missing_section(gearlink: Any, designs: Path) -> None:

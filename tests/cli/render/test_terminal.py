@@ -51,6 +51,18 @@ def test_an_estimate_has_the_digits_that_its_interval_leaves_it() -> None:
     ]
 
 
+def test_a_table_of_texts_fits_the_width() -> None:
+    """Of the texts that are too wide the widest goes on below; nothing of it is lost."""
+    inputs = ["grade=6/6, m=3, d=76.6755/226.96, b=32/32, a long rest of inputs that no terminal shows", "x=1"]
+    names = ["a name of some length here", "another"]
+    table = Table("t", ("symbol", "name", "inputs"), ("1",) * 3, (["f_pt", "f_pb"], names, inputs))
+    console = Console(width=80, record=True, file=StringIO())
+    show_table(table, console)
+    text = console.export_text()
+    assert max(map(len, text.splitlines())) <= 80
+    assert " ".join(inputs[0].split()) in " ".join(" ".join(text.replace("f_pt", "").split()).split())
+
+
 @pytest.mark.parametrize("width", [80, 60])
 def test_names_of_a_pair_break_at_an_underscore_or_not_at_all(
     gearlink: Any, monkeypatch: pytest.MonkeyPatch, width: int
