@@ -270,9 +270,13 @@ def courses(made: Problem) -> list[Course]:
 
 
 def outputs_of(made: Problem) -> tuple[str, tuple[str, ...]] | None:
-    """Table and columns of the outputs of a design."""
+    """Table and columns of the outputs of a design: of those that its kind may have the ones that it has."""
     shown = made.nominal.outline("analyze").tables
-    return next((each for each in made.nominal.output_columns.items() if each[0] in shown), None)
+    for table, names in made.nominal.output_columns.items():
+        if table in shown:
+            columns = made.nominal.table(table, samples=_PLACES).columns
+            return table, tuple(name for name in names if name in columns)
+    return None
 
 
 def _reference(made: Problem) -> float | None:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.machines.three_gear import motion
-from gearlink.core.studies.tolerance_study.samples import SHARES, courses
+from gearlink.core.studies.tolerance_study.samples import SHARES, courses, outputs_of
 
 CANDY: dict[str, Any] = {
     "kind": "three-gear-four-bar",
@@ -93,3 +93,12 @@ def test_one_by_one_the_far_percentiles_are_left_out() -> None:
 
 def courses_at(rod: float) -> Any:
     return np.asarray(factory.design(SLIDER | {"rod": rod}).table("motion", samples=120)["displacement"])
+
+
+@pytest.mark.parametrize("name", ["loaded_measured_cam", "slider_crank_tolerances"])
+def test_outputs_are_those_that_the_design_has(name: str) -> None:
+    """A measured cam has a lift or a follower's angle; its kind names both, and the picture ended in a fault."""
+    made = factory.design(name, command="tolerance").problem
+    table, names = outputs_of(made)
+    assert names
+    assert set(names) <= set(made.nominal.table(table).columns)
