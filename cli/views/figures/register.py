@@ -82,6 +82,10 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
 
 
+_TURN = 350.0
+"""Of a cycle at least [deg]; less is a range."""
+
+
 def _cycle(axes: Axes, design: RegisterDesign) -> None:
     """Absolute error over the whole cycle."""
     table = design.table_cycle()
@@ -92,7 +96,10 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
     for sign, (name, _), line in zip((1, -1), names, _LINES, strict=False):
         here = signs == sign
         axes.plot(degrees[here], band[here], color=style.BLUE, linestyle=line, label=f"99.73 %{name}")
-    style.full_turn(axes)
+    if degrees[-1] - degrees[0] < _TURN:
+        style.degrees(axes, float(degrees[0]), float(degrees[-1]))
+    else:
+        style.full_turn(axes)
     _in_time(axes, design)
     _from_zero(axes)
     known = "" if np.isfinite(band).all() else "; without cam nothing is known outside the zone"

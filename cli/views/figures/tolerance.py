@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 _MOST = 4
 _MOST_BINS = 60
 _NOTHING = 1e-12  # of the motion
+_ROUNDING = 1e-12  # of a quantity that is 0 [mm, deg]
 _LETTERS = 39  # below a histogram
 
 
@@ -196,8 +197,9 @@ def draw_tornado(design: Any) -> Figure:
 
 
 def _is_moved(rows: list[tuple[str, float, float]], nominal: float) -> bool:
-    """Whether some source changes a quantity."""
-    return max((abs(end) for _, *ends in rows for end in ends), default=0.0) > _NOTHING * abs(nominal)
+    """Whether some source changes a quantity by more than rounding."""
+    most = max((abs(end) for _, *ends in rows for end in ends), default=0.0)
+    return most > max(_NOTHING * abs(nominal), _ROUNDING)
 
 
 Effects: TypeAlias = dict[str, list[tuple[str, float, float]]]

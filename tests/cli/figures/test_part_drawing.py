@@ -122,3 +122,13 @@ def test_the_stamp_keeps_to_the_view(name: str) -> None:
     box = stamp.get_window_extent().transformed(figure.transFigure.inverted())
     assert left - 1e-3 <= box.x0 <= box.x1 <= right + 1e-3
     assert low - 1e-3 <= box.y0 <= box.y1 <= high + 1e-3
+
+
+def test_words_beside_a_circle_keep_to_the_view() -> None:
+    """The bore of this cam stands at the right of its view, and its words had run into the table."""
+    figure = part_drawing.drawn(whole("loaded_wide_swing"))["main_cam"]()
+    (bore,) = (text for axes in figure.axes for text in axes.texts if "H7" in text.get_text())
+    box = bore.get_window_extent().transformed(figure.transFigure.inverted())
+    left, low, right, high = vars(figure)["view"]
+    assert left <= box.x0 <= box.x1 <= right
+    assert low <= box.y0 <= box.y1 <= high

@@ -489,3 +489,14 @@ def test_an_instant_centre_beyond_the_picture_has_an_arrow_at_its_edge() -> None
     assert ((pole - end) * complex(arrow.vector[0]).conjugate()).real > 0.0
     assert any(f"P coupler: {abs(pole - end):.3g} mm beyond the edge" == key.words for key in scene.keys)
     assert "P coupler" in [text.get_text() for text in vector_sheet.draw(made, [80.0], "centres").axes[0].texts]
+
+
+def test_sheets_call_inputs_and_points_in_words() -> None:
+    """The input of a gripper was the letter of its tables, points had the underscores of their names."""
+    gripper = design("swing_gripper")
+    assert motion_sheet.input_words(gripper.moving.input) == "cylinder angle"
+    assert motion_sheet.courses(gripper)[0].over == "cylinder angle [deg]"
+    figure = vector_sheet.draw(design("linked_cams"), [90.0])
+    names = [label for axes in figure.axes for label in axes.get_legend_handles_labels()[1]]
+    assert "roller y" in names
+    assert not any("_" in name for name in names)

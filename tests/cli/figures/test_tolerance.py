@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from factory import design
 from matplotlib.figure import Figure
-from sheets import fits_a_page, meetings, placed_sheet, sheet, tagged
+from sheets import fits_a_page, meetings, panel, placed_sheet, sheet, tagged
 
 from gearlink.cli.views.figures import tolerance
 from gearlink.core.studies.tolerance_study.samples import Course
@@ -143,3 +144,21 @@ def test_an_output_that_a_law_prescribes_has_no_band() -> None:
     still[1] = -1e-9
     still[0] = np.nan
     assert tolerance._scatters(course)
+
+
+@pytest.mark.slow
+def test_a_register_over_a_range_fills_its_panel() -> None:
+    """A function is known over its range alone: its curve had filled a sixth of a revolution."""
+    made, figure = sheet("five_bar_function_tolerances", "register")
+    axes = panel(figure, "Over the cycle")
+    table = np.asarray(made.table_cycle()["input_angle"])
+    assert axes.get_xlim() == pytest.approx((table.min(), table.max()), rel=1e-12)
+    assert panel(sheet("slider_crank_tolerances", "register").figure, "Over the cycle").get_xlim() == (0.0, 360.0)
+
+
+@pytest.mark.slow
+def test_a_tornado_has_no_panel_of_rounding() -> None:
+    """The agreement of two ways of a gripper, 0 to 1e-16 rad, had the largest bars."""
+    titles = [axes.get_title(loc="left") for axes in tolerance.draw_tornado(design("swing_gripper_register")).axes]
+    assert titles
+    assert not any("agreement" in title for title in titles)

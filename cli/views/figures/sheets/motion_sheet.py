@@ -139,7 +139,7 @@ def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Cours
 
         return rates
 
-    over = f"{given.column.replace('_', ' ')} [deg]"
+    over = f"{input_words(given)} [deg]"
     return [
         Course(
             each.name,
@@ -262,8 +262,7 @@ def gripper(design: Any) -> list[Course]:
     """The gripper's arm, and the cam rocker, whose law makes the cam; both from the pick-up position."""
     from gearlink.core.machines.swing_gripper.mechanism import rocker_too
 
-    found = _courses(rocker_too(design), design.shaft_speed, 4.0)
-    return [replace(each, over="cylinder angle [deg]") for each in found]
+    return _courses(rocker_too(design), design.shaft_speed, 4.0)
 
 
 def wide_swing(design: Any) -> list[Course]:
@@ -400,7 +399,7 @@ def dwell(design: Any) -> Figure:
     unit = "deg" if angle else "mm"
     made = panels.page(f"{design.spec.name}: dwell, magnified", 0.5)
     grid = made.add_gridspec(2, 1, height_ratios=(1.6, 1.0))
-    words = motion.input.column.replace("_", " ")
+    words = input_words(motion.input)
     x = np.degrees(q)
     upper, lower = made.add_subplot(grid[0]), made.add_subplot(grid[1])
     labels = f"{output.name} from the\nmiddle of the band [{unit}]", "velocity [1]" if angle else "velocity [mm/rad]"
@@ -419,6 +418,11 @@ def dwell(design: Any) -> Figure:
     lower.plot(x, rate, color=style.GREEN, linewidth=1.5)
     lower.axhline(0.0, color=style.GREY, linewidth=0.7)
     return made
+
+
+def input_words(given: Any) -> str:
+    """What an input is called on sheets: that of a gripper's tables is a letter."""
+    return "cylinder angle" if given.column == "theta" else str(given.column).replace("_", " ")
 
 
 def has_zone(design: Any) -> bool:

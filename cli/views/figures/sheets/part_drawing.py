@@ -43,6 +43,8 @@ _ERROR = 0.01
 """Of the outline on the paper [mm]."""
 _GAP, _SIDE = 14.0, 12.0
 """Between the views, and for the dimension beside the second one [mm of paper]."""
+_LETTER = 1.45
+"""Width of a letter [mm of paper]."""
 _TURN = 2.0 * math.pi
 _DENSE = 20001
 _A4_ROWS = 240
@@ -74,7 +76,7 @@ def draw(design: Any, make: Callable[[], Part], number: str) -> Figure:
     shape = contour(part, _ERROR / scale, CurveForm.POLYLINE)
     left = page.view.middle - scale * 0.5 * (low + high) - 0.5 * (scale * width + (_GAP + _SIDE) * (width > 0.0))
     _view(axes, shape, left, scale, rows)
-    _dimensions(axes, part, shape, left, scale)
+    _dimensions(axes, page.view, shape, left, scale)
     if width:
         _side(axes, part, left + scale * high.real + _GAP, scale)
     if part.lines is not None:
@@ -132,21 +134,25 @@ def _view(axes: Axes, shape: Contour, axis: complex, scale: float, rows: list[tu
         paper.line(axes, axis + edge * np.array([0.94, 1.06]) * way, 0.9, color=style.WRONG, gid="start mark")
 
 
-def _dimensions(axes: Axes, part: Part, shape: Contour, axis: complex, scale: float) -> None:
+def _dimensions(axes: Axes, view: paper.Box, shape: Contour, axis: complex, scale: float) -> None:
     """Diameters of a gear, length and height of a rack, radii of a cam, bore and keyway."""
+    part = shape.part
     profile: Points = np.concatenate([line.nodes for line in shape.lines if line.layer == "PROFILE"])
     if _is_rack(part):
         _of_rack(axes, profile, axis, scale)
         return
     for circle in part.circles:
+        at = axis + scale * circle.center, scale * circle.radius
         if circle.layer == "ROLLER_AT_MID_SWING":
-            _leader(axes, axis + scale * circle.center, scale * circle.radius, f"⌀{2.0 * circle.radius:g}", 0.8)
+            _leader(axes, view, at, f"⌀{2.0 * circle.radius:g}", 0.8)
         elif circle.layer == "SHAFT":
             slot = cam_sheets.keyway(2.0 * circle.radius)
             key = f"\nkeyway {slot[0]:g} P9, {2.0 * circle.radius + slot[1]:g} over bore" if slot else ""
-            _leader(axes, axis, scale * circle.radius, f"⌀{2.0 * circle.radius:g} H7{key}", -0.35)
+            _leader(axes, view, at, f"⌀{2.0 * circle.radius:g} H7{key}", -1.1)
         elif circle.layer == "RIM" or (circle.layer == "TIP_CIRCLE" and not part.width):
-            _leader(axes, axis, scale * circle.radius, f"⌀{2.0 * circle.radius:.3f}", 0.8)
+            _leader(
+                axes, view, at, f"⌀{2.0 * circle.radius:.3f}", 0.8 if circle.layer == "RIM" or not part.rim else -0.8
+            )
     if part.lines is None:
         size = np.abs(profile)
         for k in dict.fromkeys((int(size.argmin()), int(size.argmax()))):
@@ -156,12 +162,17 @@ def _dimensions(axes: Axes, part: Part, shape: Contour, axis: complex, scale: fl
             paper.text(axes, place, f"R{size[k]:.3f}", ha="center", path_effects=style.outlined())
 
 
-def _leader(axes: Axes, axis: complex, radius: float, words: str, way: float) -> None:
-    """Words beside a circle, with an arrow to it."""
+def _leader(axes: Axes, view: paper.Box, circle: tuple[complex, float], words: str, way: float) -> None:
+    """Words beside a circle, with an arrow to it, on the right where the view has room."""
+    (center, radius), long = circle, _LETTER * max(map(len, words.split("\n")))
     unit = complex(math.cos(way), math.sin(way))
-    foot = axis + (radius + 8.0) * unit
-    paper.arrow(axes, foot, axis + radius * unit)
-    paper.text(axes, foot + 0.8, words, ha="left", path_effects=style.outlined())
+    right = center.real + (radius + 8.0) * unit.real + 0.8 + long < view.right
+    unit = unit if right else -unit.conjugate()
+    foot = center + (radius + 8.0) * unit
+    paper.arrow(axes, foot, center + radius * unit)
+    paper.text(
+        axes, foot + (0.8 if right else -0.8), words, ha="left" if right else "right", path_effects=style.outlined()
+    )
 
 
 def _of_rack(axes: Axes, profile: Points, axis: complex, scale: float) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import labels, panels, scene_axes, style
+from gearlink.cli.views.figures.sheets import motion_sheet
 from gearlink.cli.views.scenes import linkages, of_motion, shown
 from gearlink.cli.views.scenes.scene import Body, Reals
 from gearlink.core.mechanism import vectors
@@ -82,7 +83,7 @@ def beyond(design: Any, at: Sequence[float]) -> str:
         low, high, unit = math.degrees(low), math.degrees(high), "deg"
     room = 1e-9 * (high - low)
     wrong = [each for each in at if given.turns is None and not low - room <= each <= high + room]
-    words = _input_words(design)
+    words = motion_sheet.input_words(design.moving.input)
     return f"{wrong[0]:g}: the {words} runs from {low:.7g} to {high:.7g} {unit}" if wrong else ""
 
 
@@ -142,20 +143,15 @@ def frame_of(design: Any) -> shown.Frame:
     return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each), design.moving)
 
 
-def _input_words(design: Any) -> str:
-    """What the input is called: that of a gripper's tables is a letter."""
-    column: str = design.moving.input.column
-    return "cylinder angle" if column == "theta" else column.replace("_", " ")
-
-
 def _short(name: str, others: Iterable[str]) -> str:
     """A point of a link, "output.F", by its own name where no other point has it."""
     own = name.rpartition(".")[2]
-    return own if sum(other.rpartition(".")[2].lower() == own.lower() for other in others) == 1 else name
+    told = own if sum(other.rpartition(".")[2].lower() == own.lower() for other in others) == 1 else name
+    return told.replace("_", " ")
 
 
 def _input(design: Any, q: float) -> str:
-    words = _input_words(design)
+    words = motion_sheet.input_words(design.moving.input)
     return f"{words} {math.degrees(q):.5g}°" if design.moving.input.unit == "rad" else f"{words} {q:.5g} mm"
 
 
