@@ -542,3 +542,15 @@ def in_unit(value: Any, unit: str) -> Any:
     if isinstance(value, (list, tuple)):
         return [in_unit(item, unit) for item in value]
     return math.degrees(value) if unit == "deg" and value is not None else value
+
+
+def geometry(cls: type[Made]) -> cached_property[Made]:
+    """A result that a class of loads or register keeps: the design of another class for the same file.
+
+    Example
+        >>> class Loads(Design):
+        ...     design = geometry(Design)
+        >>> type(Loads.design).__name__
+        'cached_property'
+    """
+    return cached_property(lambda self: self.of_file(cls))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.cam_drives.grooved import CamGear, CamLinkage
@@ -67,11 +68,6 @@ class _OfCams(LoadsDesign):
     """What these drives share: their laws jump where the file's segments meet."""
 
     @property
-    def own_joints(self) -> list[float]:
-        """Input angles at which a law changes [rad]."""
-        return list(self.moving.input.joints)
-
-    @property
     def transmission_angle(self) -> float | None:
         """None: the pressure angle stands instead."""
         return None
@@ -86,11 +82,7 @@ class CamGearLoads(_OfCams):
     links, output = ("carrier", "planet", "sun"), "sun"
     pins, meshes = ("A", "B", "D"), ("mesh",)
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> CamGear:
-        """The geometry."""
-        return self.of_file(CamGear)
+    design: cached_property[CamGear] = geometry(CamGear)
 
 
 class CamLinkageLoads(_OfCams):
@@ -102,11 +94,7 @@ class CamLinkageLoads(_OfCams):
     links, output = ("input", "coupler", "follower", "output"), "output"
     pins, meshes = ("A", "B", "C", "D", "E"), ()
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> CamLinkage:
-        """The geometry."""
-        return self.of_file(CamLinkage)
+    design: cached_property[CamLinkage] = geometry(CamLinkage)
 
 
 class LinkedCamsLoads(_OfCams):
@@ -119,8 +107,4 @@ class LinkedCamsLoads(_OfCams):
     output = "table"
     pins, meshes = ("O",), ()
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> LinkedCams:
-        """The geometry."""
-        return self.of_file(LinkedCams)
+    design: cached_property[LinkedCams] = geometry(LinkedCams)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.cycloidal.design import CycloidalReducer
@@ -43,11 +44,7 @@ class ReducerLoads(LoadsDesign):
     links, output = ("eccentric", "disc_1", "disc_2", "disc_3", "output"), "output"
     pins, meshes = ("A", "D", "E1", "E2", "E3"), ()
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> CycloidalReducer:
-        """The geometry."""
-        return self.of_file(CycloidalReducer)
+    design: cached_property[CycloidalReducer] = geometry(CycloidalReducer)
 
     @property
     def own_links(self) -> tuple[str, ...]:

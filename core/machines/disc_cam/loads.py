@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.design import placed
+from gearlink.core.base.design import geometry, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
@@ -238,11 +238,7 @@ class DiscCamLoads(FollowerCamLoads, CamLoadsDesign):
     """The loads of a disc cam."""
 
     kind = "disc-cam"
-
-    @cached_property
-    def design(self) -> DiscCamDesign:
-        """The geometry."""
-        return self.of_file(DiscCamDesign)
+    design: cached_property[DiscCamDesign] = geometry(DiscCamDesign)
 
 
 class MeasuredCamLoads(FollowerCamLoads, CamLoadsDesign):

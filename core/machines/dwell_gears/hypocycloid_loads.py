@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
@@ -21,11 +22,7 @@ class HypocycloidDwellLoads(LoadsDesign):
     links, sliding = ("carrier", "planet", "rod", "slider", "arm"), ("slider",)
     pins, meshes = ("O", "planet", "M", "F", "D"), ("mesh_ring",)
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> HypocycloidDwell:
-        """The geometry."""
-        return self.of_file(HypocycloidDwell)
+    design: cached_property[HypocycloidDwell] = geometry(HypocycloidDwell)
 
     @property
     def own_links(self) -> tuple[str, ...]:

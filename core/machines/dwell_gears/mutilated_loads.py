@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
@@ -41,11 +42,7 @@ class MutilatedGearLoads(LoadsDesign):
     joints_of_period = True
     output, jumps = "rocker", True
     outlines = loads_outline(pins, meshes, ("engagement_energy",))
-
-    @cached_property
-    def design(self) -> MutilatedGearDwell:
-        """The geometry."""
-        return self.of_file(MutilatedGearDwell)
+    design: cached_property[MutilatedGearDwell] = geometry(MutilatedGearDwell)
 
     @cached_property
     def linkage(self) -> FourBar:

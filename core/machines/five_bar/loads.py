@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.five_bar.design import GearedFiveBar
@@ -27,11 +28,7 @@ class FiveBarLoads(LoadsDesign):
     links = ("input", "coupler", "follower", "output", "idler")
     pins, meshes = ("A", "B", "C", "D", "E", "O"), ("mesh_14", "mesh_1i", "mesh_i4", "mesh_25")
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> GearedFiveBar:
-        """The geometry."""
-        return self.of_file(GearedFiveBar)
+    design: cached_property[GearedFiveBar] = geometry(GearedFiveBar)
 
     @cached_property
     def has_idler(self) -> bool:

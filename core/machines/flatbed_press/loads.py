@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above
 from gearlink.core.base.results import cached_property
@@ -105,11 +106,7 @@ class PressLoads(CamLoadsDesign):
     output = "bed"
     outlines = loads_outline(pins, meshes, CONTACT, (*CAM_CHECKS, *PLACE_CHECKS))
     on_two_sides = True
-
-    @cached_property
-    def design(self) -> FlatbedPress:
-        """The geometry."""
-        return self.of_file(FlatbedPress)
+    design: cached_property[FlatbedPress] = geometry(FlatbedPress)
 
     @property
     def given_speed(self) -> float:
@@ -148,11 +145,6 @@ class PressLoads(CamLoadsDesign):
     def pinion_radius(self) -> float:
         """Pitch radius of the pinion [mm]."""
         return mechanism.pinion_radius(self.design)
-
-    @property
-    def own_joints(self) -> list[float]:
-        """Input angles at which the follower's law changes [rad]."""
-        return list(self.moving.input.joints)
 
     @property
     def moving(self) -> Motion:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
@@ -52,11 +53,7 @@ class PressRegister(RegisterDesign):
     default_at = "zone"
     turning = "force on the racks and on the cylinder's gears"
     words = "bed against cylinder"
-
-    @cached_property
-    def design(self) -> FlatbedPress:
-        """The press."""
-        return self.of_file(FlatbedPress)
+    design = geometry(FlatbedPress)
 
     @property
     def parts(self) -> Parts:

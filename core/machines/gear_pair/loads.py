@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.gear_pair.design import GearPairDesign
@@ -31,11 +32,7 @@ class GearPairLoads(LoadsDesign):
     pins, meshes = ("gear1", "gear2"), ("mesh_12",)
     output = "gear2"
     outlines = loads_outline(pins, meshes, ("axial_force_max", "tilting_moment_max"))
-
-    @cached_property
-    def design(self) -> GearPairDesign:
-        """The geometry."""
-        return self.of_file(GearPairDesign)
+    design: cached_property[GearPairDesign] = geometry(GearPairDesign)
 
     @property
     def pair(self) -> GearPair:

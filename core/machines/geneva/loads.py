@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.geneva.design import GenevaDrive
@@ -41,18 +42,9 @@ class GenevaLoads(LoadsDesign):
     pins, meshes = ("A", "D"), ()
     stands = True
     outlines = loads_outline(pins, meshes)
-
-    @cached_property
-    def design(self) -> GenevaDrive:
-        """The geometry."""
-        return self.of_file(GenevaDrive)
+    design: cached_property[GenevaDrive] = geometry(GenevaDrive)
 
     @property
     def transmission_angle(self) -> float | None:
         """None: the pin pushes across its slot."""
         return None
-
-    @property
-    def own_joints(self) -> list[float]:
-        """Crank angles at which a pin enters or leaves [rad]."""
-        return list(self.moving.input.joints)

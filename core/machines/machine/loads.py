@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.design import Design, Outline, geometry, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
 from gearlink.core.base.report import Check, Quantity, Shown, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
@@ -223,11 +223,7 @@ class MachineLoads(OfMembers, LoadsDesign):
     extra_tables = ("speed", "resonances", "speed_limits", "wind_up_course")
     links, pins, meshes = (), (), ()
     derived = frozenset(_QUANTITIES[len(TORQUE) :])
-
-    @cached_property
-    def design(self) -> Machine:
-        """Timing and members."""
-        return self.of_file(Machine)
+    design: cached_property[Machine] = geometry(Machine)
 
     @property
     def members(self) -> Any:

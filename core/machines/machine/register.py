@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.design import Design, Outline, geometry
 from gearlink.core.base.errors import MissingSection, in_section
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
@@ -50,11 +50,7 @@ class RegisterOfMachine(Design):
         )
     }
     advises = False
-
-    @cached_property
-    def design(self) -> Machine:
-        """Timing and members."""
-        return self.of_file(Machine)
+    design = geometry(Machine)
 
     @cached_property
     def section(self) -> MachineRegister:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.design import NamesOfFile, Outline
+from gearlink.core.base.design import NamesOfFile, Outline, geometry
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
@@ -62,10 +62,7 @@ class PlanarLoads(LoadsDesign):
             output=spec.slides[first].link if first in spec.slides else first,
         )
 
-    @cached_property
-    def design(self) -> PlanarMechanism:
-        """The geometry."""
-        return self.of_file(PlanarMechanism)
+    design: cached_property[PlanarMechanism] = geometry(PlanarMechanism)
 
     @property
     def own_names(self) -> tuple[str, ...]:

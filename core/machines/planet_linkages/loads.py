@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import Any
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
@@ -47,10 +48,7 @@ class TwoGearLoads(PlanetLinkageLoads):
     def __init__(self, spec: Any) -> None:
         super().__init__(KINDS[self.kind].completed(spec))
 
-    @cached_property
-    def design(self) -> TwoGearFourBar:
-        """The geometry."""
-        return self.of_file(TwoGearFourBar)
+    design: cached_property[TwoGearFourBar] = geometry(TwoGearFourBar)
 
     @cached_property
     def turns(self) -> int:
@@ -88,8 +86,4 @@ class GearedRockerLoads(PlanetLinkageLoads):
     kind = "geared-rocker"
     pins = ("A", "B", "C", "D", "D_output")
     outlines = loads_outline(pins, _MESHES, BALANCE)
-
-    @cached_property
-    def design(self) -> GearedRocker:
-        """The geometry."""
-        return self.of_file(GearedRocker)
+    design: cached_property[GearedRocker] = geometry(GearedRocker)

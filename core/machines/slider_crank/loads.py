@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.slider_crank.design import SliderCrankDesign
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
@@ -21,11 +22,7 @@ class SliderCrankLoads(LoadsDesign):
     links, sliding = ("crank", "rod", "slider", "pinion", "rack"), ("slider", "rack")
     pins, meshes = ("D", "E", "F", "pinion"), ("mesh_fixed", "mesh_moving")
     outlines = loads_outline(pins, meshes, BALANCE)
-
-    @cached_property
-    def design(self) -> SliderCrankDesign:
-        """The geometry."""
-        return self.of_file(SliderCrankDesign)
+    design: cached_property[SliderCrankDesign] = geometry(SliderCrankDesign)
 
     @property
     def own_links(self) -> tuple[str, ...]:

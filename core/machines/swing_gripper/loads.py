@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
@@ -43,11 +44,7 @@ class GripperLoads(CamLoadsDesign):
     speed_unit, speed_unit_name, speed_words = 2.0 * math.pi / 3600.0, "sheets/h", "sheets/h"
     speed_seconds = 3600.0
     outlines = loads_outline(pins, meshes, (*CONTACT, "lift_off_speed"), CAM_CHECKS)
-
-    @cached_property
-    def design(self) -> SwingGripper:
-        """The geometry."""
-        return self.of_file(SwingGripper)
+    design: cached_property[SwingGripper] = geometry(SwingGripper)
 
     @property
     def given_speed(self) -> float:
@@ -104,11 +101,6 @@ class GripperLoads(CamLoadsDesign):
         if "return" in self.own_rollers:
             found.append(Torque("return_rocker", torque))
         return found
-
-    @property
-    def own_joints(self) -> list[float]:
-        """Cylinder angles at which the law of the swing changes, its pieces among them [rad]."""
-        return list(self.moving.input.joints)
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:

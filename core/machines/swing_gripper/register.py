@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.machines.swing_gripper.mechanism import without_cams
@@ -50,11 +51,7 @@ class GripperRegister(RegisterDesign):
     spec: SwingGripperSpec
     default_at = "handover"
     words = "the tip along the cylinder"
-
-    @cached_property
-    def design(self) -> SwingGripper:
-        """The gripper."""
-        return self.of_file(SwingGripper)
+    design = geometry(SwingGripper)
 
     @property
     def parts(self) -> Parts:

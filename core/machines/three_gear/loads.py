@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.design import geometry
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
@@ -34,10 +35,7 @@ class ThreeGearLoads(LoadsDesign):
     def __init__(self, spec: Any) -> None:
         super().__init__(KINDS[self.kind].completed(spec))
 
-    @cached_property
-    def design(self) -> ThreeGearFourBar:
-        """The geometry."""
-        return self.of_file(ThreeGearFourBar)
+    design: cached_property[ThreeGearFourBar] = geometry(ThreeGearFourBar)
 
     @cached_property
     def turns(self) -> int:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.design import in_unit, placed
+from gearlink.core.base.design import geometry, in_unit, placed
 from gearlink.core.base.design_axis import Evaluated, Findings, Single, as_arrays, put_in
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.nomenclature import term
@@ -710,10 +710,7 @@ class ThreeGearRegister(RegisterDesign):
             spec = changed(spec, [(one.path, one.value) for one in found])
         super().__init__(spec)
 
-    @cached_property
-    def design(self) -> ThreeGearFourBar:
-        """The drive."""
-        return self.of_file(ThreeGearFourBar)
+    design = geometry(ThreeGearFourBar)
 
     @cached_property
     def parts(self) -> Parts:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gearlink.core.base.design import placed
+from gearlink.core.base.design import geometry, placed
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.remedies.ways import at_least
 from gearlink.core.base.report import Check, Quantity, Remedy, Status, Table
@@ -565,11 +565,7 @@ class WideSwingLoads(LoadsDesign):
     )
     extra_tables = (*LoadsDesign.extra_tables, "contact_stroke")
     derived = LoadsDesign.derived | {*_CONTACT}
-
-    @cached_property
-    def design(self) -> WideSwingDesign:
-        """The geometry."""
-        return self.of_file(WideSwingDesign)
+    design: cached_property[WideSwingDesign] = geometry(WideSwingDesign)
 
     @property
     def cam(self) -> AnyCam:
@@ -672,11 +668,6 @@ class WideSwingLoads(LoadsDesign):
         if given is None or abs(math.remainder(given - down, 360.0)) > _HANGS:
             message = "the mass of type: gravity hangs along loads.gravity at mid-swing"
             raise NoSolution(message, key="loads.device_direction", fix=f"set loads.device_direction to {short(down)}")
-
-    @property
-    def own_joints(self) -> list[float]:
-        """The ends of the strokes, and where the rollers change sides."""
-        return list(self.moving.input.joints)
 
     @property
     def dwell_zones(self) -> list[tuple[float, float]]:

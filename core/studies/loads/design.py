@@ -159,7 +159,7 @@ class LoadsDesign(Design):
     @property
     def own_joints(self) -> list[float]:
         """Input angles [rad] at which the machine's own motion has a jump in its accelerations."""
-        return []
+        return list(self.moving.input.joints)
 
     @property
     def turns(self) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 from oracles.planar_zoo import LOADS, ZOO, made
 
 from gearlink.cli.opening import design
+from gearlink.cli.opening import load as opened_from
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planar.loads import PlanarLoads
 from gearlink.core.mechanism.joints import Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
@@ -171,3 +173,9 @@ def test_a_slide_as_drive_has_no_loads() -> None:
     with pytest.raises(NoSolution) as refusal:
         PlanarLoads(made("cylinder", loads=section)).require("loads")
     assert (refusal.value.code, refusal.value.key) == ("GL113", "drive.slide")
+
+
+def test_what_is_led_round_takes_no_torque_in_the_mean(designs: Path) -> None:
+    """Inertia does no work over a revolution: parts of the mean end where the law of the cam changes."""
+    opened: Any = opened_from(designs / "planar_cam.yaml", command="loads")
+    assert abs(opened.raw("input_torque_mean")) < 1e-12 * opened.raw("input_torque_rms")
