@@ -1399,7 +1399,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     def check_conditioning(self) -> Check:
         """GL312: digits that the loop keeps near a dead centre, and the agreement of the two ways."""
         number, limit = self.motion.condition_number, self.spec.limits.condition_number
-        agreement = self.motion.newton_agreement
+        agreement = self.motion.newton_agreement if self.advises else self.motion.rough_agreement
         status: Status = "warn" if number > limit else "pass"
         what, aside = "condition number near a dead centre", f"solutions agree within {agreement:.2g} rad"
         if agreement > _AGREEMENT * number:

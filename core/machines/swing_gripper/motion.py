@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.shaped import Drive, Phase
 
 _STATED = 1e-6
+_FEW = 24
 _TURN = 2.0 * math.pi
 _OF_LAW = ("shaft_speed", "phases", "phase_angles", "_drive", "law")
 _NOT_OF_LAW = {
@@ -284,6 +285,11 @@ class Motion:
     def newton_agreement(self) -> float:
         """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
         return float(self.loop.deviation.max())
+
+    @cached_property
+    def rough_agreement(self) -> float:
+        """The same every 15 deg [rad], of one of many designs that are tried."""
+        return float(self.loop_at(_FEW)[1].deviation.max())
 
     @property
     def newton_iterations(self) -> int:
