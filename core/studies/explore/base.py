@@ -345,7 +345,7 @@ def _judged(base: Base, design: Design | Single, names: Sequence[str], codes: Se
     if isinstance(design, Single):
         return design
     try:
-        checks = _checks_of(base, codes)
+        checks = checks_of(base, codes)
         return Single(base.values(design, names, checks), tuple(findings_of(base, design, codes)))
     except Refused as error:
         return _refused(error)
@@ -356,7 +356,8 @@ def _is_next_to_its_limit(check: Check) -> bool:
     return value is not None and limit is not None and math.isclose(value, limit, rel_tol=_ROUNDING, abs_tol=_ROUNDING)
 
 
-def _checks_of(base: Base, codes: Sequence[str]) -> set[str]:
+def checks_of(base: Base, codes: Sequence[str]) -> set[str]:
+    """Names of the checks under some codes."""
     return {name for code in codes for name in base.codes[code]}
 
 
@@ -366,7 +367,7 @@ def findings_of(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check
     Raises
         Refused - where a check finds that there is no mechanism
     """
-    names = _checks_of(base, codes)
+    names = checks_of(base, codes)
     try:
         shown = dict.fromkeys(name for name in design.outline(base.command).checks if name in names)
         return [check for name in shown for check in design.check(name)]

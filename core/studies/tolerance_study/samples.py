@@ -21,7 +21,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.studies.explore.base import Refused, findings_of
+from gearlink.core.studies.explore.base import Refused, checks_of, findings_of
 from gearlink.core.studies.tolerance.sampling import (
     REPLICATIONS,
     is_shared,
@@ -155,9 +155,10 @@ def _single(made: Problem, design: Any, names: Sequence[str]) -> Single:
         return design
     try:
         own = _extra(made)
-        values = made.base.values(design, [name for name in names if name not in own])
+        plain, codes = [name for name in names if name not in own], list(made.base.codes)
+        values = made.base.values(design, plain, checks_of(made.base, codes))
         values |= {name: in_unit(design.raw(name), term(name).unit) for name in names if name in own}
-        return Single(values, tuple(findings_of(made.base, design, list(made.base.codes))))
+        return Single(values, tuple(findings_of(made.base, design, codes)))
     except (Refused, NoSolution) as error:
         return Single({}, (), error.key or "kind", str(error))
 
