@@ -303,7 +303,7 @@ def _square(_x: Reals, state: State) -> State:
     slopes = state[2]
     square = slopes @ np.swapaxes(slopes, 1, 2)
     # The floor goes with the size, else rounding takes it where one link is a million times the others.
-    return square, 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
+    return square, 1e-14 * np.maximum(1.0, np.einsum("kii->k", square))
 
 
 def _step(x: Reals, state: State, damping: Reals) -> Reals:
