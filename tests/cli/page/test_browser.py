@@ -283,3 +283,15 @@ def test_what_a_cursor_says_keeps_clear_of_the_curves(window: Browser, pages: Pa
     assert len(hidden) >= 3
     assert sorted(hidden)[len(hidden) // 2] == 0
     assert sum(hidden) < 20 * len(hidden)
+
+
+@pytest.mark.slow
+def test_meanings_of_results_are_words_on_a_phone(window: Browser, pages: Path) -> None:
+    """Their column had shrunk to a letter, and rows were as high as it was long; it scrolls instead."""
+    window.size(390, 800)
+    window.open(pages / "candy-feed.html")
+    cells = "[...document.querySelectorAll('.scroll td:nth-child(5):not(.n)')]"
+    widths = window.run(f"return {cells}.map(cell => cell.offsetWidth).filter(wide => wide)")
+    assert len(widths) > 10
+    assert min(widths) > 100
+    assert window.run("return document.documentElement.scrollWidth") == 390
