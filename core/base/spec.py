@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
@@ -85,9 +85,15 @@ class DesignSpec(Spec):
         json_schema_extra={"maxLength": MOST_NAME},
     )
 
+    own_commands: ClassVar[tuple[str, ...]] = ("analyze",)
+    """What every file of the kind asks for."""
+
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze",)
+        return *self.own_commands, *self._loads()
+
+    def _loads(self) -> tuple[str, ...]:
+        return () if getattr(self, "loads", None) is None else ("loads",)
 
     def pages(self) -> tuple[str, ...]:
         """Commands that a report shows: those that the file asks for, less what another one of them contains."""
@@ -174,9 +180,7 @@ class DrivenSpec(Scatter, DesignSpec):
         None, description="speed of the input: with it real speeds, accelerations and times are given"
     )
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", "gear", *(("loads",) if getattr(self, "loads", None) is not None else ()))
+    own_commands: ClassVar[tuple[str, ...]] = ("analyze", "gear")
 
 
 class LoadLimits(Spec):

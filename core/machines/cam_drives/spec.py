@@ -73,6 +73,7 @@ class Lever(Spec):
 class CamGearSpec(DrivenSpec):
     """A planet whose lever runs in a groove of the frame: carrier the input, sun the output."""
 
+    own_commands = ("analyze",)
     kind: Literal["cam-gear"]
     gears: SunAndPlanet
     lever: Lever
@@ -82,10 +83,6 @@ class CamGearSpec(DrivenSpec):
     loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamGearSection")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))
 
 
 class FiveLinks(Spec):
@@ -101,6 +98,7 @@ class FiveLinks(Spec):
 class CamLinkageSpec(DrivenSpec):
     """A five-bar whose middle joint C runs in a groove of the frame: AB the input, ED the output."""
 
+    own_commands = ("analyze",)
     kind: Literal["cam-linkage"]
     links: FiveLinks
     phase: Angle = Field(0.0, description="direction of ED at output angle 0")
@@ -111,10 +109,6 @@ class CamLinkageSpec(DrivenSpec):
     loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamLinkageSection")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))
 
 
 class Harmonics(Spec):
@@ -177,6 +171,7 @@ class LinkedCamPair(Spec):
 class LinkedCamsSpec(DrivenSpec):
     """A cross slide that two cams on one shaft move along a path."""
 
+    own_commands = ("analyze",)
     kind: Literal["linked-cams"]
     path: LinkedPath
     cams: LinkedCamPair
@@ -184,7 +179,3 @@ class LinkedCamsSpec(DrivenSpec):
     loads: Annotated[Any, Deferred("machines.cam_drives.loads:LinkedCamsSection")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))

@@ -162,7 +162,7 @@ class CrankRockerSpec(DrivenSpec):
     def commands(self) -> tuple[str, ...]:
         """What the file asks for: a synthesis per section, an analysis of given links, the loads with theirs."""
         analysis = ("analyze",) if self.links is not None else ()
-        loads = ("loads",) if self.loads is not None else ()
+        loads = self._loads()
         return (*((*self.syntheses(), *analysis) or ("analyze",)), *loads)
 
     def sized_by(self, command: str) -> str:

@@ -57,6 +57,7 @@ class ReducerLimits(LoadLimits):
 class CycloidalReducerSpec(DrivenSpec):
     """Discs with lobes on an eccentric that roll in a ring of pins."""
 
+    own_commands = ("analyze",)
     kind: Literal["cycloidal-reducer"]
     pins: Annotated[int, Field(ge=4, le=1000, json_schema_extra={"unit": "1"})] = Field(
         description="pins of the ring; the disc has one lobe less"
@@ -111,7 +112,3 @@ class CycloidalReducerSpec(DrivenSpec):
             message = "the efficiency needs output_pins: {count, circle_radius, radius}"
             raise PydanticCustomError("GL106", "{message}", {"key": "output_pins", "message": message})
         return self
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))

@@ -132,10 +132,6 @@ class MeasuredCamSpec(TolerancedSpec):
         count = len(self.profile.points or ())
         return min((count - 1) // 4, MOST_HARMONICS) if self.harmonics is None else self.harmonics
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))
-
     # What a disc cam has
 
     is_flat: ClassVar[bool] = False

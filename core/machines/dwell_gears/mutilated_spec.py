@@ -132,7 +132,3 @@ class MutilatedGearDwellSpec(DrivenSpec):
                 "GL111", "D_radius goes with the four-bar\ngive links, or omit it", {"key": "shafts.D_radius"}
             )
         return self
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))

@@ -28,6 +28,7 @@ class PairLimits(DrawingLimits, GearLimits, LoadLimits):
 class GearPairSpec(TolerancedSpec, PairKeys):
     """Cylindrical gears with profile shift, spur or helical, external or internal, by centre distance or shifts."""
 
+    own_commands = ("gear",)
     kind: Literal["gear-pair"]
     teeth: Annotated[
         list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2), Entries("[gear 1, gear 2]", "[25, 40]")
@@ -143,10 +144,6 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             if getattr(self, key) is not None:
                 message = "{key} is not known of a gear on a rack\nomit it"
                 raise PydanticCustomError("GL111", message, {"key": key})
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("gear", *(("loads",) if self.loads is not None else ()))
 
 
 def exclude_each_other(spec: Any, first: str, second: str) -> None:

@@ -50,6 +50,7 @@ class GenevaLimits(LoadLimits):
 class GenevaDriveSpec(DrivenSpec):
     """A wheel with radial slots, and a crank whose pin enters them."""
 
+    own_commands = ("analyze",)
     kind: Literal["geneva-drive"]
     type: Literal["external", "internal"] = Field(
         description="external: the crank's axis is outside the wheel; internal: within it"
@@ -116,7 +117,3 @@ class GenevaDriveSpec(DrivenSpec):
         if sign > 0.0:
             return self.center_distance - self._crank(sign)
         return self.center_distance * cos(pi / self.slots)
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))

@@ -279,10 +279,6 @@ class PlanarSpec(TolerancedSpec):
         slide = self.slid.get(name, "")
         return slide if slide and self.slides[slide].on == FRAME else name
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if self.loads is not None else ()))
-
 
 def _refuse(key: str, message: str) -> None:
     raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})

@@ -159,5 +159,5 @@ class TwoGearFourBarSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        loads = ("loads",) if self.loads is not None else ()
+        loads = self._loads()
         return (*(self._syntheses() or ("analyze",)), "gear", *loads)

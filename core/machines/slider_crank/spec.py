@@ -114,7 +114,7 @@ class SliderCrankSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for: the crank, the motion with its checks, the loads with theirs."""
-        return ("crank", "analyze", *(("loads",) if self.loads is not None else ()))
+        return ("crank", "analyze", *self._loads())
 
     def pages(self) -> tuple[str, ...]:
         """`analyze` gives all of `crank`, and the same sheet."""

@@ -379,4 +379,4 @@ class SwingGripperSpec(TolerancedSpec):
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
         cam = ("cam",) if self.cam is not None else ()
-        return ("gripper", *cam, *(("loads",) if self.loads is not None else ()))
+        return ("gripper", *cam, *self._loads())

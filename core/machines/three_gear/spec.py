@@ -175,7 +175,7 @@ class ThreeGearSpec(DrivenSpec):
     def commands(self) -> tuple[str, ...]:
         """What the file asks for: a synthesis per section, an analysis of given links, the loads with theirs."""
         analysis = ("analyze",) if self.links is not None else ()
-        loads = ("loads",) if self.loads is not None else ()
+        loads = self._loads()
         gears = ("gear",) if self.gears.drawing else ()
         return (*((*self.syntheses(), *analysis) or ("analyze",)), *loads, *gears)
 

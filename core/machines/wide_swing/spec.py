@@ -450,4 +450,4 @@ class WideSwingSpec(TolerancedSpec):
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
         cam = ("cam",) if self.cam is not None else ()
-        return ("swing", *cam, *(("loads",) if self.loads is not None else ()))
+        return ("swing", *cam, *self._loads())
