@@ -136,7 +136,7 @@ class DiscCam:
             the extremes of |P| - r_g are those of the profile. Where the profile loops, the body that the roller
             leaves has the same minimum radius and stays within the maximum; the loop does not.
         """
-        return np.abs(profile.pitch_points(cam_angle, self.path(cam_angle, 1), sense=self.sense)) - self.roller_radius
+        return np.abs(self.path(cam_angle, 1).position) - self.roller_radius
 
     @cached_property
     def max_pressure_angle(self) -> Extreme:
