@@ -429,7 +429,7 @@ class _Wording:
         if not near and not parent and (deeper := self._deeper(plain)):
             return f"it belongs to {deeper}; {listed}"
         if meant := _meant(key, allowed, self.missing.get(parent, ())):
-            return f"did you mean '{meant}'? {listed}"
+            return f"did you mean '{meant}'? {listed}".rstrip()
         own = {path: [name.lower() for name in self._keys(path)] for path in self._sections() if path != parent}
         sections = [path for path, names in own.items() if plain in names]
         if not sections:
