@@ -120,15 +120,16 @@ class Check(NamedTuple):
 
     @property
     def brief(self) -> str:
-        """Code, name, value and limit, for a stamp on a picture.
+        """Code, name, value and limit as the message has them, for a stamp on a picture.
 
         Example
             >>> rule = Rule("GL303", "", "", "", "", checks=("transmission-angle",))
             >>> rule.check("fail", "the angle", 31.25, 40.0, "deg").brief
             'GL303 transmission-angle 31.25 deg (limit >= 40 deg)'
         """
-        value, bound = self._compared(Shown(self.value, self.limit, self.unit, self.side))
-        text = f"{self.code} {self.name}" + (f" {in_unit(value, self.unit)}" if value else "")
+        shown = self.shown or Shown(self.value, self.limit, self.unit, self.side)
+        value, bound = self._compared(shown)
+        text = f"{self.code} {self.name}" + (f" {in_unit(value, shown.unit)}" if value else "")
         return f"{text} ({bound})" if bound else text
 
     def _worded(self, aside: str) -> str:

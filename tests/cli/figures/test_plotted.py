@@ -182,7 +182,7 @@ def test_an_undercut_cam_is_drawn_not_for_manufacture() -> None:
     made = design(worked("ty460"), cam__base_radius=35.0)
     words_of_stamp = failures(check for name in made.outline("cam").checks for check in made.check(name))
     assert "GL402 cam-undercut" in words_of_stamp
-    assert "GL402 cam-undercut 2.217 (limit ≤ 1)" in words_of_stamp
+    assert "GL402 cam-undercut 25 mm (limit ≤ 11.27 mm)" in words_of_stamp  # as the message says it
     texts = words(true_size.workshop_drawing(made, 0))
     assert not any(text.startswith(f"R {cam_sheets.discs(made)[0].max_radius:.5g}") for text in texts)
     assert any("undercut" in text for text in texts)
