@@ -152,7 +152,7 @@ def test_every_error_of_a_file_is_shown(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "x.yaml"
     path.write_text("kind: slider-crank\nstroke: a\nrodd: 5\noffset: [1]\nspeed: {}\n")
     codes = [(e["code"], e["line"]) for e in gearlink("check", path, "--format", "json").json["errors"]]
-    assert len(codes) == 3
+    assert len(codes) == 4
     for form in ("table", "csv", "md", "json", "jsonl", "junit", "sarif", "github"):
         out = gearlink("batch", path, "--format", form).out
         assert all(len(re.findall(rf"\b{code}\b", out)) >= 1 for code, _ in codes), form
