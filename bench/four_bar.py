@@ -194,6 +194,6 @@ def _columns(result: Any) -> list[Any]:
         return [result[2], result[3], result[5], result[7]]
     if isinstance(result, list):
         return [[getattr(s, n) for s in result] for n in ("rocker_angle", "rocker_velocity", "rocker_acceleration")]
-    if isinstance(result, tuple):
-        return list(result)
-    return [result.rocker_angle, result.rocker_velocity, result.rocker_acceleration]
+    if isinstance(result, fourbar.FourBarState):
+        return [result.rocker_angle, result.rocker_velocity, result.rocker_acceleration]
+    return list(result)
