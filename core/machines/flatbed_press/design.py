@@ -1294,10 +1294,13 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     def table_positions(self, samples: int | None = None) -> Table:
         """Both chains at equal input angles (TY-460 report 1.2, 2.2), and the bed with the lift of its cam."""
+        import numpy as np
+
         from gearlink.core.machines.flatbed_press.mechanism import bare, bed, cylinder
         from gearlink.core.mechanism.courses import Shown, between, turned
 
-        plain, surface = bed(bare(self)), cylinder(self)
+        without = bare(self)
+        plain, surface = bed(without), cylinder(self)
         shown = [
             Shown("cam_angle", turned("CDE").less(self.bed.cam_angle_start)),
             Shown("bed_displacement", plain),
@@ -1307,27 +1310,28 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             Shown("transmission_angle_bed", between("BC", "CDE")),
             Shown("transmission_angle_cylinder", between("HM", "MN")),
         ]
-        columns = self._in_time(samples or 12, shown, bare=True)
+        columns = without._in_time(samples or 12, shown)
+        for name in ("cam_angle", "bed_velocity"):  # 0 at the start, which directions give to rounding
+            values, unit = columns[name]
+            columns[name] = np.where(columns["input_angle"][0] == 0.0, 0.0, values), unit
         if self.spec.cam is not None and self.bed_moves:
             with_cam = bed(self)
             shown = [Shown("compensated_displacement", with_cam), Shown("compensated_velocity", with_cam, 1)]
             columns |= self._in_time(samples or 12, shown)
         return Table.of("positions", columns)
 
-    def _in_time(self, samples: int | None, shown: Sequence[Column], *, bare: bool = False) -> dict[str, Any]:
-        """Columns over the input angle by time, of the press or of one without its cam."""
+    def _in_time(self, samples: int | None, shown: Sequence[Column]) -> dict[str, Any]:
+        """Columns over the input angle, rates by time."""
         import numpy as np
 
-        from gearlink.core.machines.flatbed_press import mechanism
         from gearlink.core.mechanism.courses import columns_of
         from gearlink.core.numerics.arrays import turn_degrees
 
-        moving, degrees = (mechanism.bare(self) if bare else self).moving, turn_degrees(samples)
-        found = columns_of(moving, np.radians(degrees), shown, self.input_speed)
-        for name in ("cam_angle", "bed_velocity") if bare else ():  # 0 at the start, which directions give to rounding
-            if name in found:
-                found[name] = np.where(degrees == 0.0, 0.0, found[name][0]), found[name][1]
-        return {"input_angle": (degrees, "deg"), **found}
+        degrees = turn_degrees(samples)
+        return {
+            "input_angle": (degrees, "deg"),
+            **columns_of(self.moving, np.radians(degrees), shown, self.input_speed),
+        }
 
     def table_follower(self, samples: int | None = None) -> Table:
         """Lift of the follower over the cam angle (TY-460 report 3.4)."""
@@ -1351,12 +1355,11 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
         Of a bed whose cam cannot be nothing is said.
         """
-        from gearlink.core.machines.flatbed_press.mechanism import bed, cylinder
+        from gearlink.core.machines.flatbed_press.mechanism import bare, bed, cylinder
         from gearlink.core.mechanism.courses import Shown, turned
 
-        half_turn = (
-            0.0 if self.spec.loads is None or self.spec.loads.bed_side > 0 else math.pi
-        )  # as gear 1 and its chain are turned there
+        # as gear 1 and its chain are turned there
+        half_turn = 0.0 if self.spec.loads is None or self.spec.loads.bed_side > 0 else math.pi
         rates = [("bed", bed(self))] if self.bed_moves else []
         shown = [
             Shown(f"{name}_{rate}", course, order)
@@ -1371,7 +1374,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             Shown("HM_angle", turned("HM").less(half_turn)),
             Shown("MN_angle", turned("MN").less(half_turn)),
         ]
-        found = self._in_time(samples, shown, bare=not self.bed_moves)
+        found = (self if self.bed_moves else bare(self))._in_time(samples, shown)
         time = found["input_angle"][0] / 360.0 * 3.6e6 / self.spec.speed
         return Table.of("chains", {"input_angle": found["input_angle"], "time": (time, "ms"), **found})
 
