@@ -156,7 +156,7 @@ Makers = dict[str, Callable[[], "Figure"]]
 
 def kinds() -> tuple[str, ...]:
     """The kinds whose designs have sheets."""
-    return tuple(kind.name for kind in KINDS.values() if kind.all_sheets or kind.rexs)
+    return tuple(kind.name for kind in KINDS.values() if kind.all_sheets or kind.cut)
 
 
 def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale | None:

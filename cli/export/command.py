@@ -233,9 +233,8 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
     design.require_two_gears("a blocking contour")
     points = sum(map(len, design.contour.points.values())) if form in (FileFormat.SVG, FileFormat.CSV) else 0
     if form is FileFormat.SVG:
-        return load("cli.views.figures.gears:contour_svg")(
-            design
-        ), f"{points} points of {len(design.contour.lines)} lines"
+        made: bytes = load("cli.views.figures.gears:contour_svg")(design)
+        return made, f"{points} points of {len(design.contour.lines)} lines"
     if form is FileFormat.CSV:
         return _csv(design), f"{points} points of {len(design.contour.lines)} lines"
     raise NoContourFile(f"the blocking contour is no profile for {form}\ngive --as svg or --as csv")

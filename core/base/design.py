@@ -241,7 +241,7 @@ class Design:
         name = fixed_name(name, self.quantity_names())
         if name not in self.quantity_names():
             raise UnknownName("quantity", name, self.quantity_names())
-        value = self.raw(name)
+        value = _bounded(self.raw(name))
         if value is None:
             return None
         entry = term(name)
@@ -493,6 +493,18 @@ class Design:
 def _several(names: Sequence[str]) -> Sequence[str]:
     """Names, of which a single one may stand alone."""
     return (names,) if isinstance(names, str) else names
+
+
+def _bounded(value: Any) -> Any:
+    """A value, None for an infinite one: a straight curve has no radius, and JSON no number for it.
+
+    Example
+        >>> _bounded(math.inf), _bounded([2.5, math.inf]), _bounded("inf")
+        (None, [2.5, None], 'inf')
+    """
+    if isinstance(value, (list, tuple)):
+        return [_bounded(each) for each in value]
+    return None if isinstance(value, float) and math.isinf(value) else value
 
 
 def _heads(key: str) -> Iterator[str]:

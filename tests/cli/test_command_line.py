@@ -258,7 +258,7 @@ def test_known_quantities_are_listed_once(gearlink: Any, designs: Path) -> None:
     ended = gearlink("analyze", designs / "candy_feed.yaml", "--quantity", "zzzzzz")
     assert ended.status == ExitCode.WRONG_INPUT
     assert "crank_length" in ended.err
-    assert "more, which --all shows" in ended.err
+    assert "more, which --all shows, and those of a mesh as MESH.NAME" in ended.err
     assert "crank_idler." not in ended.err
 
 

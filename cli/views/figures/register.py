@@ -82,8 +82,8 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
 
 
-_TURN = 350.0
-"""Of a cycle at least [deg]; less is a range."""
+_SHORTEST_TURN = 350.0
+"""From the first to the last row of a revolution at least [deg]; what is shorter is a range."""
 
 
 def _cycle(axes: Axes, design: RegisterDesign) -> None:
@@ -96,7 +96,7 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
     for sign, (name, _), line in zip((1, -1), names, _LINES, strict=False):
         here = signs == sign
         axes.plot(degrees[here], band[here], color=style.BLUE, linestyle=line, label=f"99.73 %{name}")
-    if degrees[-1] - degrees[0] < _TURN:
+    if degrees[-1] - degrees[0] < _SHORTEST_TURN:
         style.degrees(axes, float(degrees[0]), float(degrees[-1]))
     else:
         style.full_turn(axes)

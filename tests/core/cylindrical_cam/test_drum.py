@@ -95,3 +95,12 @@ def test_undercut_by_the_wall_factor(roller: float, status: str) -> None:
     data = {**DATA, "follower": {"type": "translating-roller", "roller_radius": roller}}
     design = factory.design(data, command="cam")
     assert [check.status for check in design.check("cam-undercut")] == [status]
+
+
+def test_a_track_without_lift_has_no_curvature_radius() -> None:
+    """It is a circle about the axis, developed a straight line: no infinite number, which JSON does not have."""
+    motion = [{"to": 180, "lift": 0, "law": "cycloidal"}, {"to": 360}]
+    made = factory.design({**DATA, "motion": motion}, command="cam")
+    assert math.isinf(made.raw("min_curvature_radius"))
+    assert made.quantity("min_curvature_radius") is None
+    assert made.quantity("max_pressure_angle").value == 0.0
