@@ -122,7 +122,10 @@ class ToleranceSource(Spec):
 
     def _process(self) -> None:
         if self.cpk is not None and self.cpk > self.cp:
-            raise _wrong("GL172", f"cpk: {self.cpk:g} (limit <= {self.cp:g}, cp)")
+            raise _wrong(
+                "GL172",
+                f"cpk: {self.cpk:g} (limit <= {self.cp:g}, cp)\nlower cpk or raise cp: at mid-tolerance they are equal",
+            )
         if self.cpk is not None and self.cpk < self.cp and self.shift is None:
             raise _wrong(
                 "GL172",
@@ -143,7 +146,7 @@ class Correlation(Spec):
     @model_validator(mode="after")
     def _a_correlation(self) -> Correlation:
         if not -1.0 <= self.rho <= 1.0:
-            raise _wrong("GL176", f"rho: {self.rho:g} (limit -1 to 1)", "rho")
+            raise _wrong("GL176", f"rho: {self.rho:g} (limit -1 to 1)\ngive a correlation within -1 and 1", "rho")
         return self
 
 
