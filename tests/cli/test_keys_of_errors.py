@@ -197,15 +197,19 @@ def test_a_misspelled_key_is_one_error(designs: Path, name: str) -> None:
     path = designs / f"{name}.yaml"
     data = parse(path.read_bytes(), path.name).data
     model = FILES[data["kind"]].spec_model()
-    several = {}
+    told = {}
     for place in paths_of(data):
-        text = json.dumps(misspelled(data, place)) if place != ("kind",) else json.dumps(data)
+        if place == ("kind",):
+            continue
+        text = json.dumps(misspelled(data, place))
         try:
-            validate(parse(text.encode(), path.name), model)  # a name that the file chooses
+            validate(
+                parse(text.encode(), path.name), model
+            )  # a name that the file chooses, or a source looked up later
         except DesignFileError as error:
-            several[place] = [each.message for each in error.diagnostics]
-    assert len(several) > 5
-    assert {place: told for place, told in several.items() if len(told) > 1} == {}
+            told[place] = [each.message for each in error.diagnostics]
+    assert len(told) > 5
+    assert {place: words for place, words in told.items() if len(words) > 1} == {}
 
 
 def test_sources_in_a_list_are_refused(gearlink: Any, designs: Path) -> None:

@@ -61,7 +61,7 @@ def test_an_idler_names_both_mates() -> None:
 
 
 def test_places_of_a_wide_swing_cam_are_those_of_its_roller() -> None:
-    """Every tenth row against the curve at that cam angle, found by bisection; half of the last digit."""
+    """Rows of three cam angles against the curve at that cam angle, found by bisection; half of the last digit."""
     made = whole("wide_swing_twin_cam")
     figure = part_drawing.drawn(made)["main_cam"]()
     texts = words(figure)
@@ -99,9 +99,14 @@ def test_parts_that_are_drawn() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["rack_drive", "wide_swing_cycle", "wide_swing_twin_rocker", "mutilated_gear_press"])
 def test_all_of_a_drawing_lies_within_its_frame(name: str) -> None:
-    for make in part_drawing.drawn(whole(name)).values():
+    drawn = part_drawing.drawn(whole(name))
+    assert drawn
+    for make in drawn.values():
         figure = make()
         wide, tall = figure.get_size_inches() * 25.4
+        points = np.concatenate([line.get_xydata() for line in figure.axes[0].lines])
+        assert np.all(points >= np.array([20.0, 10.0]) - 1e-9)
+        assert np.all(points <= np.array([wide - 10.0, tall - 10.0]) + 1e-9)
         renderer = FigureCanvasAgg(figure).get_renderer()
         for axes in figure.axes:
             for text in axes.texts:

@@ -263,7 +263,7 @@ def test_what_a_cursor_says_keeps_clear_of_the_curves(window: Browser, pages: Pa
     """Of the panels that leave room; points of curves in the box of the words."""
     window.size(1280, 900)
     window.open(pages / "candy-feed.html")
-    hidden = window.run(
+    said, hidden = window.run(
         """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
         svg.scrollIntoView({block: 'end'});
         const charts = JSON.parse(sheet.querySelector('script.charts').textContent), chart = charts[charts.length - 1];
@@ -277,10 +277,11 @@ def test_what_a_cursor_says_keeps_clear_of_the_curves(window: Browser, pages: Pa
             const up = outer.top + scale * (d - (curve.y[k] - each.y[0]) / (each.y[1] - each.y[0]) * (d - b));
             return boxes.some(box => box.left < at && at < box.right && box.top < up && up < box.bottom);
         }).length).reduce((sum, one) => sum + one, 0);
-        return charts.filter(each => each.over === chart.over).map(inside);""",
+        return [boxes.length, charts.filter(each => each.over === chart.over).map(inside)];""",
         share,
     )
     assert len(hidden) >= 3
+    assert said >= len(hidden)
     assert sorted(hidden)[len(hidden) // 2] == 0
     assert sum(hidden) < 20 * len(hidden)
 

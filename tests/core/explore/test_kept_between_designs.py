@@ -51,15 +51,18 @@ def test_threads_share_what_a_gripper_keeps(hurried: None) -> None:
 
 
 def test_checks_and_the_one_quantity_of_a_study_are_sought_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Searches of one extreme alone are counted: none with the checks, some where the quantity alone is asked for."""
     alone: list[int] = []
-    search = disc_cam.maximum_over
 
-    def counted(*given: Any, **more: Any) -> Any:
-        alone.append(1)
-        return search(*given, **more)
+    def counted(search: Any) -> Any:
+        def found(*given: Any, **more: Any) -> Any:
+            alone.append(1)
+            return search(*given, **more)
 
-    monkeypatch.setattr(disc_cam, "maximum_over", counted)
-    monkeypatch.setattr(disc_cam, "minimum_over", counted)
+        return found
+
+    for name in ("maximum_over", "minimum_over"):
+        monkeypatch.setattr(disc_cam, name, counted(getattr(disc_cam, name)))
     made = base()
     found = single(made, (), NAMES[2:3], list(made.codes))
     assert found.findings

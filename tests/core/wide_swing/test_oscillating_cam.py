@@ -182,7 +182,9 @@ def test_contact_begins_where_the_standing_roller_is_left() -> None:
                 return abs(curve(stop + part) + 0.02j * way / abs(way) - curve(mp.mpf(stop))) - mp.mpf("0.02")
 
             assert t == pytest.approx(float(mp.findroot(room, (t, 1.001 * t))), rel=4e-15 / t**2, abs=0.0)
-    assert first > 0.0
+    assert [first, 0.5 - start, end - 0.5, 1.0 - last] == [
+        pytest.approx(t, rel=0.02) for t in (1.58e-3, 1.99e-2, 1.97e-2, 0.0)
+    ]
 
 
 def test_bulging_end_is_covered_and_hollow_end_is_not() -> None:
