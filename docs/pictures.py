@@ -59,7 +59,6 @@ PARTS = {
 _THUMBNAIL, _EDGE = (200, 150), 6
 # Teeth move on by less than half a pitch from one frame to the next; more frames or colours exceed 400 kB.
 _FEED, _FEED_FRAMES, _FEED_FPS, _FEED_COLORS = (316, 266), 90, 15, 16
-_COLORS = 64
 
 
 def scene_of(name: str, fractions: Iterable[float]) -> Scene:
@@ -102,9 +101,8 @@ def drawn(command: tuple[str, ...], design: str, folder: Path, *options: str) ->
 
 
 def write_png(picture: Image.Image, name: str) -> None:
-    """Write a figure with few colours, paper white."""
-    small = picture.convert("RGB").quantize(_COLORS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-    small.save(TARGET / f"{name}.png", optimize=True)
+    """Write a figure in its own colours: a palette of few tints its fills anew at each change."""
+    picture.convert("RGB").save(TARGET / f"{name}.png", optimize=True)
 
 
 def write_feed() -> None:
