@@ -335,7 +335,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
         raise NoSolution("all points are the same: a path needs at least two different ones")
     given = [judge(start, offset, targets)] if closes(start, 0.0) else []
     with np.errstate(all="ignore"):  # rows that open are NaN and drop out
-        rows = _search(start, offset / scale, targets / scale, transmission_angle, scale)
+        rows = _search(start, offset, targets / scale, transmission_angle, scale)
     known = rows[np.all(np.isfinite(rows), axis=1)]
     closing = (one for row in known if closes((one := row_as_bar(start, row, scale))[0], transmission_angle))
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
@@ -358,8 +358,7 @@ def closes(bar: PathFiveBar, least: float) -> bool:
 def _search(start: PathFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Reals:
     """Rows of unknowns at the ends of the search, lengths by the scale, the best first."""
     family = family_of(start, scale)
-    lengths = np.log((start.input, start.coupler, start.follower, start.output)) - math.log(scale)
-    first = np.array([*lengths, start.phase, offset.real, offset.imag])
+    first = as_row(start, offset, scale)
     problem = PathProblem(family, targets, *bounds(first), math.cos(least), 1.0)
     x = scattered_starts(family, first, thinned(problem, _CHOOSING).targets, least)
     x = np.concatenate((first[None, :], x))
@@ -407,9 +406,15 @@ def family_of(bar: PathFiveBar, scale: float) -> FiveBarFamily:
     return replace(family, count=_between(_PER_WAVE * family.waves, _FEWEST, _MOST), span_count=spans)
 
 
+def as_row(bar: PathFiveBar, offset: complex, scale: float) -> Reals:
+    """Unknowns (7,) of a five-bar and its coupler point."""
+    lengths = np.array([bar.input, bar.coupler, bar.follower, bar.output])
+    return np.array([*np.log(lengths / scale), bar.phase, offset.real / scale, offset.imag / scale])
+
+
 def row_as_bar(bar: PathFiveBar, row: Reals, scale: float) -> tuple[PathFiveBar, complex]:
     """Five-bar and coupler point of a row."""
-    a, b, c, e = (math.exp(float(x) + math.log(scale)) for x in row[:4])
+    a, b, c, e = (scale * math.exp(float(x)) for x in row[:4])
     phase = math.remainder(float(row[4]), 2.0 * math.pi)
     return replace(bar, input=a, coupler=b, follower=c, output=e, phase=phase), scale * complex(row[5], row[6])
 
@@ -463,7 +468,7 @@ def fit_timed(
     begun, best, rounds, tried = time.monotonic(), None, [], 0
     for number in range(1 if seconds is None else 1_000_000):
         with np.errstate(all="ignore"):  # rows that open are NaN and drop out
-            count, rows = _searched(start, offset / scale, targets / scale, angles, transmission_angle, scale, number)
+            count, rows = _searched(start, offset, targets / scale, angles, transmission_angle, scale, number)
         tried += count
         for found in _judged(start, rows, targets, angles, transmission_angle, scale):
             best = found if best is None or found.fit.rms < best.fit.rms else best
@@ -494,8 +499,7 @@ def _searched(
 ) -> tuple[int, Reals]:
     """Number of starts, and rows of the seven unknowns and phi_0 at the ends of the search, the best first."""
     family = family_of(start, scale)
-    lengths = np.log((start.input, start.coupler, start.follower, start.output)) - math.log(scale)
-    first = np.array([*lengths, start.phase, offset.real, offset.imag])
+    first = as_row(start, offset, scale)
     x = scattered_starts(family, first, targets, least, number)
     count = len(x) + (number == 0)
     x = np.concatenate((first[None, :], x[:_FOLLOWED])) if number == 0 else x[:_FOLLOWED]

@@ -304,6 +304,16 @@ def test_fit_never_loses_to_its_start_and_keeps_its_limits():
     assert fit.distance == pytest.approx(sampled, abs=5e-3)
 
 
+def test_fit_is_the_same_at_any_scale():
+    """A power of two changes no digit: a search that took another way would end elsewhere in its flat minimum."""
+    targets = np.array([-10 + 60j, 10 + 70j, 30 + 75j, 50 + 70j, 60 + 55j])
+    one = fit_path(BAR, 60.0 + 0j, targets, RADIANS(30.0))
+    large = replace(BAR, input=320.0, coupler=960.0, follower=960.0, output=320.0, frame=800.0)
+    other = fit_path(large, 960.0 + 0j, 16.0 * targets, RADIANS(30.0))
+    assert (16.0 * one.distance).tolist() == other.distance.tolist()
+    assert (16.0 * one.bar.coupler, one.bar.phase) == (other.bar.coupler, other.bar.phase)
+
+
 @pytest.mark.parametrize(("targets", "words"), [([0j, 1 + 0j], "at least three"), ([1j, 1j, 1j], "the same")])
 def test_fit_refused(targets, words):
     with pytest.raises(NoSolution, match=words):
