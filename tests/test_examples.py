@@ -47,5 +47,8 @@ def test_they_would_if_hypothesis_were_left_to_itself(tmp_path, monkeypatch):
     before = examples()
     monkeypatch.setattr(providers, "_get_local_constants", providers._get_local_constants.__wrapped__)
     monkeypatch.setattr(providers, "CONSTANTS_CACHE", LRUCache(1024))
+    # as in a process in which nothing has been looked for: modules are known by their address, which may come again
+    monkeypatch.setattr(providers, "_seen_modules", set())
+    monkeypatch.setattr(providers, "_sys_modules_len", None)
     load_numbers(tmp_path, monkeypatch)
     assert examples() != before

@@ -1,6 +1,8 @@
 """Long tables as CSV: computed and written a part at a time, the same rows as at once.
 
-The rows are compared exactly: each stands alone, so a part holds the same doubles as the whole.
+The rows are compared exactly: each stands alone, so a part holds the same doubles as the whole. Of planar mechanisms
+each row is where Newton's steps end that begin at a place near by, another one in a part: they end within rounding
+times the condition of the joints, below 1e-12 of the table's maximum in the column's unit.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import factory
+import numpy as np
 import pytest
 from factory import each_kind
 from sweeps import mostly_slow
@@ -55,7 +58,14 @@ def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
                 continue
             parts = design.table_in_parts(name, 3 * 37)
             assert (parts.columns, parts.units) == (whole.columns, whole.units)
-            assert list(map(tuple, parts.each_row())) == list(map(tuple, whole.each_row())), name
+            of_parts, at_once = list(map(tuple, parts.each_row())), list(map(tuple, whole.each_row()))
+            if kind.name == "planar-mechanism":
+                one, other, units = np.array(of_parts, float), np.array(at_once, float), np.array(whole.units)
+                for unit in set(whole.units):
+                    a, b = one[:, units == unit], other[:, units == unit]
+                    np.testing.assert_allclose(a, b, rtol=0.0, atol=1e-12 * np.nanmax(np.abs(b)), err_msg=name)
+            else:
+                assert of_parts == at_once, name
 
 
 @pytest.mark.quick(2)
