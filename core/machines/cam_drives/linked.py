@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Table
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, keep
 from gearlink.core.mechanism.courses import Shown, coordinate, motion_table
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
@@ -65,6 +65,26 @@ class LinkedCams(RealSpeed, Design):
         "cam-undercut": (*either("cams.x.roller_radius", "cams.y.roller_radius"), up("cams.x.base_radius"),
                          up("cams.y.base_radius")),
     }  # fmt: skip
+
+    at_once = 256
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
+        """Cams of one path are sought together."""
+        from gearlink.core.base.many_designs import hand_out, sought, together
+
+        wanted = ("max_pressure_angle", "most_convex", "star_shaped")
+        radii = tuple(name for name in ("max_radius", "min_radius") if name in names)
+
+        def find(some: Sequence[Any]) -> None:
+            many, first = cls(together([design.spec for design in some], ("path", "input_speed", "loads"))), some[0]
+            of_path = {"_reach": first._reach} | ({"_speeds": first._speeds} if first.angular_speed else {})
+            for design in (many, *some):
+                keep(design, **of_path)
+            for axis in (0, 1):
+                hand_out(many.cams[axis], [design.cams[axis] for design in some], *wanted, *radii)
+
+        sought(find, designs)
 
     # The path
 
