@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Outline, placed
@@ -32,6 +32,13 @@ _CHECKS = ("undercut", "gear-collision", "shaft-clearance", "interference", "sho
 _NEAR = 0.8
 _USUAL = (0.4, 0.8)
 _PROFILE_ROWS = 1440
+_SEARCHES = {
+    "pin_force_max": ("_pushed",),
+    "contact_stress": ("_stressed",),
+    "output_pin_force_max": ("_pushed_out",),
+    "backlash": ("tightest", "_closest"),
+}
+_CHECKED = ("contact_stress", "backlash")
 
 
 class CycloidalReducer(RealSpeed, Design):
@@ -63,6 +70,26 @@ class CycloidalReducer(RealSpeed, Design):
         "interference": either("modification.offset"),
         "pitting": either("width", "pin_radius", "pin_circle_radius"),
     }
+
+    at_once = 64
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
+        """Forces and gaps of reducers with as many pins are sought together."""
+        from gearlink.core.base.many_designs import hand_out, sought, together
+
+        alike = ("pins", "count", "fixed", "torque", "loads")
+
+        def find(some: Sequence[Any]) -> None:
+            first, many = some[0], cls(together([design.spec for design in some], alike))
+            wanted = {"pin_force_max": first.worst_torque, "output_pin_force_max": first.worst_torque,
+                      "contact_stress": first.worst_torque and all(design.is_stressed for design in some),
+                      "backlash": first.spec.modification}  # fmt: skip
+            for name, there in wanted.items():
+                if there and (name in names or name in _CHECKED):
+                    hand_out(many, some, *_SEARCHES[name])
+
+        sought(find, designs)
 
     # Geometry
 
@@ -156,12 +183,14 @@ class CycloidalReducer(RealSpeed, Design):
         return maximum_over(course, 0.0, pitch, joints=(0.5 * pitch,), samples=256)
 
     @cached_property
+    def _pushed(self) -> Extreme:
+        """Maximum force of a ring pin, per N mm of the torque on its disc [1/mm]."""
+        return self._over_pitch(self.disc.pins, lambda phi: self.disc.shares(phi).pins.max(axis=-1))
+
+    @property
     def pin_force_max(self) -> float | None:
         """Maximum force of a ring pin [N]."""
-        torque = self.worst_torque
-        if torque is None:
-            return None
-        return torque * self._over_pitch(self.disc.pins, lambda phi: self.disc.shares(phi).pins.max(axis=1)).value
+        return None if self.worst_torque is None else self.worst_torque * self._pushed.value
 
     def stresses(self, phi: Reals) -> Reals:
         """Contact stress of every ring pin at angles of the eccentric, (N, Z) [N/mm^2].
@@ -170,38 +199,48 @@ class CycloidalReducer(RealSpeed, Design):
         """
         import numpy as np
 
+        from gearlink.core.machines.cycloidal.disc import deep
         from gearlink.core.studies.loads.contact import plane_modulus
 
         assert self.worst_torque is not None
         assert self.spec.width is not None
-        disc, material = self.disc, self.spec.material
-        u = (TURN / disc.pins) * np.arange(disc.pins) - phi[:, None]
+        disc, material = self.disc.deepened, self.spec.material
+        u = (TURN / disc.pins) * np.arange(disc.pins) - phi[..., None]
         bend = disc.curvature(u)
         relative = 1.0 / (disc.pin * (1.0 - bend * disc.pin))
-        force = self.worst_torque * disc.shares(phi).pins
-        modulus = plane_modulus(material.elastic_modulus, material.poisson)
-        return np.sqrt(force * modulus * relative / (math.pi * self.spec.width))
+        force = deep(self.worst_torque) * self.disc.shares(phi).pins
+        modulus = plane_modulus(deep(material.elastic_modulus), deep(material.poisson))
+        return np.asarray(np.sqrt(force * modulus * relative / (math.pi * deep(self.spec.width))))
+
+    @property
+    def is_stressed(self) -> bool:
+        """Whether torque and width are given, and no flank is undercut."""
+        given = self.worst_torque is not None and self.spec.width is not None
+        return given and self.disc.pin < self.min_curvature_radius
 
     @cached_property
+    def _stressed(self) -> Extreme:
+        return self._over_pitch(self.disc.pins, lambda phi: self.stresses(phi).max(axis=-1))
+
+    @property
     def contact_stress(self) -> float | None:
         """Maximum contact stress of a ring pin [N/mm^2]; None where an undercut flank has none."""
-        if self.worst_torque is None or self.spec.width is None or self.disc.pin >= self.min_curvature_radius:
-            return None
-        return self._over_pitch(self.disc.pins, lambda phi: self.stresses(phi).max(axis=1)).value
+        return self._stressed.value if self.is_stressed else None
 
     @cached_property
+    def _pushed_out(self) -> Extreme | None:
+        """Maximum force of an output pin, per N mm of the torque on a disc [1/mm]."""
+        pins = self.spec.output_pins
+        if pins is None:
+            return None
+        count, circle = pins.count, pins.circle_radius
+        return self._over_pitch(count, lambda phi: self.disc.shares(phi, count, circle).outputs.max(axis=-1))
+
+    @property
     def output_pin_force_max(self) -> float | None:
         """Maximum force of an output pin [N]."""
-        pins, torque = self.spec.output_pins, self.worst_torque
-        if pins is None or torque is None:
-            return None
-        circle = pins.circle_radius
-
-        def greatest(phi: Reals) -> Reals:
-            found: Reals = self.disc.shares(phi, pins.count, circle).outputs.max(axis=1)
-            return found
-
-        return torque * self._over_pitch(pins.count, greatest).value
+        most, torque = self._pushed_out, self.worst_torque
+        return None if most is None or torque is None else torque * most.value
 
     def _losses(self, phi: Reals) -> Reals:
         """Work lost at one disc per radian of the input, per N mm of its torque.
@@ -233,10 +272,12 @@ class CycloidalReducer(RealSpeed, Design):
         """
         import numpy as np
 
+        from gearlink.core.numerics.gauss import gauss_legendre
+
         pins, torque = self.spec.output_pins, self.disc_torque
         if self.spec.friction is None or pins is None or torque is None:
             return None
-        nodes, weights = np.polynomial.legendre.leggauss(6)
+        nodes, weights = gauss_legendre(6)
         count = 2 * math.lcm(self.disc.pins, pins.count)
         step = TURN / count
         edges = step * np.arange(count)
@@ -260,15 +301,17 @@ class CycloidalReducer(RealSpeed, Design):
         return minimum_over(lambda u: self.disc.gap(u, *self.changes), 0.0, math.pi)
 
     @cached_property
-    def backlash(self) -> float | None:
-        """Turn of the disc between both flanks [rad]: 2 min gap Q/(e z sin u); None where disc and pins interfere."""
-        if self.tightest is None or self.tightest.value < 0.0:
-            return None
+    def _closest(self) -> Extreme:
+        """Minimum turn of the disc to one flank [rad], and where."""
         from gearlink.core.numerics.extremes import minimum_over
 
         inside = 1e-6
-        found = minimum_over(lambda u: self.disc.gap(u, *self.changes) / self.disc.lever(u), inside, math.pi - inside)
-        return 2.0 * found.value
+        return minimum_over(lambda u: self.disc.gap(u, *self.changes) / self.disc.lever(u), inside, math.pi - inside)
+
+    @property
+    def backlash(self) -> float | None:
+        """Turn of the disc between both flanks [rad]: 2 min gap Q/(e z sin u); None where disc and pins interfere."""
+        return None if self.tightest is None or self.tightest.value < 0.0 else 2.0 * self._closest.value
 
     # Tables
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,8 +20,13 @@ _IDLE = 1e-12
 """Sine of u below which a pin stands on the line of the eccentricity, where it carries nothing."""
 
 
+def deep(value: Any) -> Any:
+    """A number, or a column of them with an axis more: one for the pins."""
+    return value[..., None] if isinstance(value, np.ndarray) else value
+
+
 class Shares(NamedTuple):
-    """Forces at some angles of the eccentric, per N mm of the torque on a disc; rows are angles, columns pins.
+    """Forces at some angles of the eccentric, per N mm of the torque on a disc; the last axis is that of the pins.
 
     Fields
         pins, normals, places : (N, Z) arrays [1/mm], unit vectors from the pin, contact points [mm], in the frame whose
@@ -37,7 +42,7 @@ class Shares(NamedTuple):
     @property
     def of_ring(self) -> Points:
         """Resultant of the ring pins on the disc, which acts at the pitch point."""
-        return np.asarray(np.sum(self.pins * self.normals, axis=1))
+        return np.asarray(np.sum(self.pins * self.normals, axis=-1))
 
 
 @dataclass(frozen=True)
@@ -46,7 +51,7 @@ class Disc:
 
     Fields
         pins : int - Z of the ring; lobes are one less
-        circle, pin, eccentricity : float [mm] - R, r_p, e
+        circle, pin, eccentricity : float [mm] - R, r_p, e; columns (K, 1) for a row of results for each disc
     Source
         thesis 2.2.2 II; own derivation
     """
@@ -60,6 +65,11 @@ class Disc:
     def lobes(self) -> int:
         """z = Z - 1."""
         return self.pins - 1
+
+    @property
+    def deepened(self) -> Disc:
+        """The same for angles whose last axis is that of the pins."""
+        return replace(self, circle=deep(self.circle), pin=deep(self.pin), eccentricity=deep(self.eccentricity))
 
     @cached_property
     def shortening(self) -> float:
@@ -129,13 +139,14 @@ class Disc:
         Parameters
             phi : (N,) array [rad] - angles of the eccentric, a ring pin and an output pin at 0
         """
-        u = (TURN / self.pins) * np.arange(self.pins) - phi[:, None]
-        lever = np.where(np.sin(u) > _IDLE, self.lever(u), 0.0)
-        pin = self.circle * units(u)
-        way = self.eccentricity * self.pins - pin
+        disc = self.deepened
+        u = (TURN / self.pins) * np.arange(self.pins) - phi[..., None]
+        lever = np.where(np.sin(u) > _IDLE, disc.lever(u), 0.0)
+        pin = disc.circle * units(u)
+        way = disc.eccentricity * self.pins - pin
         normal = way / np.abs(way)
-        g = (TURN / max(outputs, 1)) * np.arange(outputs) - phi[:, None]
+        g = (TURN / max(outputs, 1)) * np.arange(outputs) - phi[..., None]
         side = np.where(np.sin(g) > _IDLE, np.sin(g), 0.0)
-        found = side if outputs == 0 else side / (output_circle * np.sum(side**2, axis=1, keepdims=True))
-        share = lever / np.sum(lever**2, axis=1, keepdims=True)
-        return Shares(share, np.asarray(normal), np.asarray(pin + self.pin * normal), found)
+        found = side if outputs == 0 else side / (deep(output_circle) * np.sum(side**2, axis=-1, keepdims=True))
+        share = lever / np.sum(lever**2, axis=-1, keepdims=True)
+        return Shares(share, np.asarray(normal), np.asarray(pin + disc.pin * normal), found)
