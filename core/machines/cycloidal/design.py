@@ -78,7 +78,7 @@ class CycloidalReducer(RealSpeed, Design):
         """Forces and gaps of reducers with as many pins are sought together."""
         from gearlink.core.base.many_designs import hand_out, sought, together
 
-        alike = ("pins", "count", "fixed", "torque", "loads")
+        alike = ("pins", "count", "fixed", "loads")
 
         def find(some: Sequence[Any]) -> None:
             first, many = some[0], cls(together([design.spec for design in some], alike))

@@ -20,7 +20,7 @@ FILES = {
     "linked_cams": ("analyze", {"cams.x.base_radius": 0.5, "cams.y.base_radius": 0.5, "cams.x.roller_radius": 0.2}),
     "cycloidal_reducer": (
         "analyze",
-        {"pin_radius": 0.01, "eccentricity": 0.01, "output_pins.radius": 0.01, "width": 1},
+        {"pin_radius": 0.01, "eccentricity": 0.01, "output_pins.radius": 0.01, "width": 1, "torque": 5},
     ),
 }
 KEPT = {"cam_gear": "groove.hollow", "cam_linkage": "groove.hollow", "barrel_cam": "walls",
