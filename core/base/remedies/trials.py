@@ -114,7 +114,7 @@ class Bench:
                 if not self._is_affordable_elsewhere(remedy):
                     break
                 if self._grade_elsewhere(remedy) >= wanted:
-                    return remedy
+                    return next(self._farther(remedy, found.name, good), remedy)
         return ()
 
     def _of_earlier(self, name: str) -> Iterator[Remedy]:
@@ -139,6 +139,29 @@ class Bench:
                 return
             if not self._design.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
                 yield remedy
+
+    def _farther(self, remedy: Remedy, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+        """Where another failing finding is repaired along the same way: the nearest value with which nothing fails.
+
+        Both then name it, and whoever follows the first advice has followed the second.
+        """
+        keys = tuple(key for key, _ in remedy)
+        ways = [way for way in self._design.ways_of(name) if way.keys == keys]
+        if ways and any(way in ways for each in self._failing_beside(name) for way in self._design.ways_of(each)):
+            for each in self._along(ways[0], lambda tried: good(tried) and self._holds(tried)):
+                if self._is_affordable_elsewhere(each) and self._grade_elsewhere(each) == PASSES:
+                    yield each
+                return
+
+    def _failing_beside(self, name: str) -> list[str]:
+        """The checks of the failing findings but for one of this check."""
+        with suppress(NoSolution):
+            names = chain.from_iterable(map(self._before.checks, self._commands))
+            failing = [each for each in names for rank in self._before.ranks(each) if rank == FAILS]
+            if name in failing:
+                failing.remove(name)
+            return failing
+        return []
 
     def _begin(self) -> None:
         """What trials for one finding may cost, those counted that are known from another: what it gets does not

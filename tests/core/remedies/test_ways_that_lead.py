@@ -77,6 +77,16 @@ def test_the_input_gears_of_a_press_are_repaired() -> None:
     assert repaired("ty460", check.remedy, "tip-thickness", "gear", **keys)
 
 
+def test_findings_that_one_width_repairs_name_the_same() -> None:
+    """By itself each would name the least that it needs: 10 mm for the flanks, 12 for the roots."""
+    keys = {"face_width": 6}
+    made = factory.design("gear_pair", command="gear", **keys)
+    found = [check for name in ("pitting", "bending") for check in failing(made, "gear", name)]
+    assert len(found) == 4
+    assert len({check.remedy for check in found}) == 1
+    assert repaired("gear_pair", found[0].remedy, "pitting", "gear", **keys)
+
+
 @pytest.mark.slow
 def test_a_transition_before_the_end_of_its_zone() -> None:
     """Behind it alone where the cams bear that, or with the base radius that they need."""
