@@ -7,12 +7,13 @@ an outline differs from its circle by the error of its chords, 0.01 mm of paper,
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 from factory import design
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from scipy.optimize import brentq
 from sheets import tagged, words
 
 from gearlink.cli.commands.sheet import sheets_of
@@ -32,16 +33,69 @@ def scale_of(figure: Any) -> float:
     return found
 
 
+def cell(figure: Any, item: str) -> str:
+    """The value of a line of a table."""
+    texts = words(figure)
+    return next(text for text in texts[texts.index(item) + 1 :] if text.replace(".", "").isdigit())
+
+
+def involute(angle: float) -> float:
+    return math.tan(angle) - angle
+
+
+class Cut(NamedTuple):
+    """A gear by its sizes, teeth counted positive; of a ring its spaces are cut as the teeth of a gear are shaped."""
+
+    module: float
+    teeth: int
+    helix: float
+    shift: float
+    ring: bool = False
+
+    @property
+    def transverse(self) -> float:
+        """Pressure angle on the reference circle."""
+        return math.atan(math.tan(ALPHA) / math.cos(self.helix))
+
+    def span(self, count: int, allowance: float = 0.0) -> float:
+        """W = m cos(a) (pi (k - 1/2) + z inv(a_t)) + 2 x m sin(a), the teeth thinner by -E."""
+        turns = math.pi * (count - 0.5) + self.teeth * involute(self.transverse)
+        return self.module * (math.cos(ALPHA) * turns + 2.0 * self.shift * math.sin(ALPHA)) + allowance * math.cos(
+            ALPHA
+        )
+
+    def over_balls(self, ball: float, allowance: float = 0.0) -> float:
+        """Twice the distance of a ball's far side from the axis, or across the chord of an odd number of teeth.
+
+        A tooth takes the angle (pi/2 + 2 x tan(a) + E/m) 2/z of the reference circle, and 2 (inv(a_t) - inv(a_y)) more
+        of a circle of pressure angle a_y; the flanks that touch a ball at the ends of D are D/r_b apart.
+        """
+        thick = (0.5 * math.pi + 2.0 * self.shift * math.tan(ALPHA) + allowance / self.module) / self.teeth
+        ball_angle = ball / (self.module * self.teeth * math.cos(ALPHA))
+        wanted = thick + involute(self.transverse)
+        wanted += -ball_angle if self.ring else ball_angle - math.pi / self.teeth
+        angle = brentq(lambda at: involute(at) - wanted, 0.0, 1.2, xtol=1e-15)
+        base = self.module * self.teeth / math.cos(self.helix) * math.cos(self.transverse)
+        chord = base / math.cos(angle) * (math.cos(0.5 * math.pi / self.teeth) if self.teeth % 2 else 1.0)
+        return chord - ball if self.ring else chord + ball
+
+
+ALPHA = math.radians(20.0)
+
+
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
-    ("name", "part", "tip", "told"),
+    ("name", "part", "tip", "cut", "thinner", "told"),
     [
-        ("gear_pair", "gear1", 66.196, {"27.2529", "27.2153", "122.854", "right", "71"}),
-        ("standing_feed", "gear3", 92.0, {"27.8017", "40", "84"}),
-        ("ring_pair", "gear2", 131.2, {"46.5691", "46", "21"}),
+        ("gear_pair", "gear1", 66.196, Cut(2.5, 23, math.radians(15.0), 0.35), (-0.07, -0.11), {"right", "71"}),
+        ("standing_feed", "gear3", 92.0, Cut(2.0, 44, 0.0, 0.0), None, {"40", "84"}),
+        ("ring_pair", "gear2", 131.2, Cut(2.0, 67, 0.0, 0.3, True), None, {"46", "21"}),
     ],
 )
-def test_a_gear_has_its_outline_and_its_table(name: str, part: str, tip: float, told: set[str]) -> None:
+def test_a_gear_has_its_outline_and_its_table(
+    name: str, part: str, tip: float, cut: Cut, thinner: tuple[float, float] | None, told: set[str]
+) -> None:
+    """Span and measure over balls by formulas of their own; allowances of DIN 3967, 25cd: -70 and -110 um."""
     figure = part_drawing.drawn(whole(name))[part]()
     scale = scale_of(figure)
     (profile,) = (line.get_xydata() @ [1.0, 1j] for line in tagged(figure, "profile"))
@@ -52,6 +106,21 @@ def test_a_gear_has_its_outline_and_its_table(name: str, part: str, tip: float, 
     assert 2.0 * reach == pytest.approx(scale * tip, abs=0.03)
     assert 20.0 <= profile.real.min() <= profile.real.max() <= figure.get_figwidth() * 25.4 - 10.0
     assert told <= set(words(figure))
+    count, ball = int(cell(figure, "teeth (ring: spaces) spanned")), float(cell(figure, "ball diameter"))
+    limits = zip(("maximum", "minimum"), thinner, strict=True) if thinner else [("nominal", 0.0)]
+    for limit, allowance in limits:
+        assert cell(figure, f"span measurement, {limit}") == f"{cut.span(count, allowance):.6g}"
+        assert cell(figure, f"measure over balls, {limit}") == f"{cut.over_balls(ball, allowance):.6g}"
+
+
+def test_the_centre_distance_of_a_table_is_that_of_its_shifts() -> None:
+    """cos(a_t) (z1 + z2) m/(2 cos(b) cos(a_w)) with inv(a_w) = inv(a_t) + 2 (x1 + x2) tan(a)/(z1 + z2)."""
+    figure = part_drawing.drawn(whole("gear_pair"))["gear1"]()
+    at = Cut(2.5, 23, math.radians(15.0), 0.35).transverse
+    wanted = involute(at) + 2.0 * (0.35 + 0.15) * math.tan(ALPHA) / (23 + 71)
+    working = brentq(lambda angle: involute(angle) - wanted, 0.0, 1.0, xtol=1e-15)
+    plain = 0.5 * 2.5 * (23 + 71) / math.cos(math.radians(15.0))
+    assert cell(figure, "centre distance") == f"{plain * math.cos(at) / math.cos(working):.6g}"
 
 
 def test_an_idler_names_both_mates() -> None:
