@@ -10,7 +10,7 @@ import os
 import re
 import shlex
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from gearlink.core.base.kind import Kind
@@ -89,14 +89,15 @@ def parts(incomplete: str) -> Offer:
 
 def sheets(incomplete: str) -> Offer:
     """Further sheets of the design file on the line."""
-    from gearlink.cli.export.options import is_cut
+    from gearlink.cli.export.options import drawing_of
 
-    names = [name for kind in _kinds() for name in kind.all_sheets]
-    each = ("tornado", *(("zone", "contact", "drawing-1", "drawing-2") if "drawing" in names else ()))
-    if re.search(r"^fingers\b", next(_texts(_words()), ""), re.MULTILINE):
-        each = (*each, "drawing-3")
-    cut = (f"drawing-{name}" for kind in _kinds() if kind.cut for name, _ in parts("") if is_cut(kind, name))
-    return _beginning(incomplete, ((name, "") for name in (*names, *each, *cut)))
+    kinds = _kinds()
+    names = [name for kind in kinds for name in kind.all_sheets]
+    cams = [*_planar().get("cams", {})] if [kind.name for kind in kinds] == ["planar-mechanism"] else []
+    count = max(3 if re.search(r"^fingers\b", next(_texts(_words()), ""), re.MULTILINE) else 2, len(cams))
+    discs = ("zone", "contact", *(f"drawing-{k + 1}" for k in range(count))) if "drawing" in names else ()
+    cut = (f"drawing-{found}" for kind in kinds for name, _ in parts("") if (found := drawing_of(kind, name, cams)))
+    return _beginning(incomplete, ((name, "") for name in (*names, "tornado", *discs, *cut)))
 
 
 def places(incomplete: str) -> Offer:
@@ -137,14 +138,19 @@ def _gears_on_pins() -> Iterator[str]:
 
 def _planar_parts() -> Iterator[str]:
     """Paths of the output points, gears of the meshes and cams of a planar mechanism."""
-    import yaml
-
-    data = yaml.safe_load(next(_texts(_words()), ""))
+    data = _planar()
     points = {name for link in data["links"].values() for name in (link if isinstance(link, dict) else link[:2])}
     yield from (f"PATH-{name}" for name in data.get("outputs", ()) if name in points)
     for name, mesh in data.get("meshes", {}).items():
         yield from (f"{name}_{link}" for link in mesh.get("gears", (mesh.get("pinion"),)))
     yield from data.get("cams", {})
+
+
+def _planar() -> Any:
+    """The data of the first design file on the line."""
+    import yaml
+
+    return yaml.safe_load(next(_texts(_words()), ""))
 
 
 def _beginning(incomplete: str, offers: Iterable[tuple[str, str]]) -> Offer:

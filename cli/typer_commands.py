@@ -304,7 +304,7 @@ def _sheet(
         PlotFormat | None, typer.Option("--format", "-f", help="the same as --plot-format")
     ] = None,
 ) -> None:
-    """Write further sheets of a design: motion of every output, vectors, timing, drawings of cams and gears.
+    """Write further sheets of a design: motion of every output, vectors, timing, drawings of its parts.
 
     A drawing of a design in which a check fails is stamped, exit status 1.
 

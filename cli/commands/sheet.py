@@ -1,4 +1,4 @@
-"""`gearlink sheet`: further sheets of a design: motion, timing, pressure angles, drawings of cams and gears."""
+"""`gearlink sheet`: further sheets of a design: motion, timing, pressure angles, drawings of parts."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def _require_vectors(asked: Asked, at: Sequence[float], chosen: Sequence[str], d
 
 
 def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[str]:
-    """The sheets asked for, each once; `drawing` is that of every cam and gear."""
+    """The sheets asked for, each once; `drawing` is that of every part."""
     chosen: list[str] = []
     kind = spec.kind
     for name in names or tuple(made):
@@ -117,7 +117,7 @@ def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[
         chosen += found
     if not chosen:
         help_ = f"its sheet is drawn by `gearlink {spec.commands()[0]} {for_shell(source)} --plot`; {_who_has()}"
-        message = f"`sheet` draws motion, timing, pressure angles, cams and gears, of which this {kind} has none"
+        message = f"`sheet` draws motion, timing, pressure angles and parts, of which this {kind} has none"
         raise DesignFileError([Diagnostic("GL113", message, "<command line>", key="kind", help=help_)])
     return list(dict.fromkeys(chosen))
 
@@ -185,7 +185,7 @@ def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale 
 
 
 def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (), show: str = "") -> Makers:
-    """The sheets that a design has, by name: a drawing for each cam (`drawing-1`, true to a scale) and gear.
+    """The sheets that a design has, by name: a drawing for each cam (`drawing-1`, true to a scale) and other part.
 
     Raises
         NoSolution - where the mechanism cannot make its turn
@@ -219,7 +219,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         if name not in _ALIKE and place:
             found[name] = lambda place=place: load(place)(design)  # type: ignore[misc]
     cams = cam_sheets.discs(design)
-    if cams and cams[0].roller_radius:
+    if cams and "pressure" in KINDS[design.kind].sheets and cams[0].roller_radius:
         found["pressure"] = lambda: cam_sheets.pressure(design)
         found["contact"] = lambda: motion_sheet.contact(design)
     if scale is not None:

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -39,6 +39,23 @@ class Circle:
     center: complex = 0j
 
 
+class Dimension(NamedTuple):
+    """A size that the drawing of a part shows.
+
+    Fields
+        words : str - what it says
+        start, end : complex [mm] - between which it lies; of a radius the centre and a point of the arc
+        places : int - so many times it lies alike about the axis: the drawing takes the clearest place
+        row : int - above 0: in this row below the view, or beside it if it is upright; else where it lies
+    """
+
+    words: str
+    start: complex
+    end: complex
+    places: int = 1
+    row: int = 0
+
+
 @dataclass(frozen=True)
 class Part:
     """What is to be drawn of one cam or gear; the axis is the origin of its frame.
@@ -58,7 +75,8 @@ class Part:
         twist : float [rad/mm] - how far the section turns along the axis; above 0 with right-hand teeth
         slant : float - how far the section moves along x on its way along the axis: the teeth of a helical rack
         rim : float [mm] - above 0: the body lies between the profile and this circle
-        lines : gives the lines of a gear's table on a drawing: item, symbol, value, unit
+        lines : gives the lines of its table on a drawing: item, symbol, value, unit
+        dimensions : what a drawing shows beside diameters of circles
     """
 
     name: str
@@ -75,6 +93,7 @@ class Part:
     slant: float = 0.0
     rim: float = 0.0
     lines: Callable[[], list[tuple[str, str, Any, str]]] | None = None
+    dimensions: tuple[Dimension, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -40,10 +40,20 @@ class CurveForm(StrEnum):
     SPLINE = "spline"
 
 
-def is_cut(kind: Kind, part: str, cams: Collection[str] = ()) -> bool:
-    """Whether the workshop drawing of a part shows it alone: disc cams have drawings with their followers."""
-    followed = ("main_cam", "return_cam") if "drawing" in kind.sheets else cams
-    return kind.cut and part != CONTOUR and not part.startswith(PATH) and part not in followed
+_TOGETHER = {"groove_inner": "groove", "groove_outer": "groove"}
+"""Parts that one drawing shows: both walls of a groove."""
+
+
+def drawing_of(kind: Kind, part: str, cams: Collection[str] = ()) -> str:
+    """Name of the workshop drawing of a part; empty for what is not cut, and for disc cams, drawn with their followers.
+
+    Parameters
+        cams : names of the disc cams of a file that names them
+    """
+    followed = ("main_cam", "return_cam", *cams) if "drawing" in kind.sheets else ()
+    if not kind.cut or part == CONTOUR or part.startswith(PATH) or part in followed:
+        return ""
+    return _TOGETHER.get(part, part)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gearlink.cli.export import sizes
 from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.options import PATH
 from gearlink.cli.export.sampling import Points, Reals, Stretch
@@ -156,6 +157,7 @@ def _wall(design: Any, name: str, place: int) -> Part:
         notes=(f"roller radius {groove.roller_radius:.9g} mm", "frame: axis of the input at the origin"),
         findings=(found.message,) if found.status == "fail" else (),
         extra_columns=("input_angle [deg]", "pressure_angle [deg]", "curvature [1/mm]"),
+        dimensions=sizes.centre_line(groove),
     )
 
 
@@ -655,8 +657,8 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
             Circle("ROOT_CIRCLE", profile.root_radius),
         ),
         notes=(
-            f"module {mesh.module:g} mm, {amount(groups, 'group')} of {amount(count, 'tooth', 'teeth')}, "
-            f"{design.full_teeth} teeth without gaps",
+            f"{amount(groups, 'group')} of {amount(count, 'tooth', 'teeth')}, {design.full_teeth} teeth without gaps; "
+            f"module {mesh.module:g} mm",
             f"first and last tooth of a group cut to radius {cut:.6g} mm, so that they pass the resting gear",
             "the locking arcs that hold the driven gear, and an entry tooth that takes up its speed, are omitted",
             "no backlash: thin the teeth by the allowance that the drawing gives",
@@ -933,12 +935,14 @@ def cycloidal_disc(design: Any) -> Part:
         closed=True,
         circles=tuple(circles),
         notes=(
-            f"ground for pins of radius {disc.pin:.9g} mm on a circle of radius {disc.circle:.9g} mm",
+            f"{disc.lobes} lobes of eccentricity {disc.eccentricity:.9g} mm, ground for pins of radius "
+            f"{disc.pin:.9g} mm on a circle of radius {disc.circle:.9g} mm",
             "frame: centre of the disc at the origin, a valley between two lobes on the x axis",
         ),
         findings=tuple(check.message for check in design.check("undercut") if check.status == "fail"),
         extra_columns=("parameter [deg]", "curvature_radius [mm]"),
         width=spec.width,
+        dimensions=sizes.lobes(disc),
     )
 
 
@@ -957,6 +961,7 @@ def cycloidal_ring(design: Any) -> Part:
         closed=True,
         circles=tuple(pins),
         notes=(f"{disc.pins} pins of radius {disc.pin:.9g} mm, the first on the x axis",),
+        lines=partial(sizes.ring_lines, disc),
     )
 
 
@@ -964,6 +969,8 @@ def geneva_wheel(design: Any) -> Part:
     """The wheel of a Geneva drive, the middle of a slot on the x axis; of an internal one its inner contour."""
     spec, inner = design.spec, design.drive.sign < 0.0
     locking = spec.locking_radius
+    outlines = design.outlines_with(locking or 0.0)
+    blank = Circle("TIP_CIRCLE", outlines.tip)
     arcs = "no locking arcs: the file has no locking_radius"
     if locking is not None:
         arcs = f"locking arcs of radius {locking + spec.locking_clearance:.9g} mm about the crank's axis in the dwell"
@@ -972,10 +979,10 @@ def geneva_wheel(design: Any) -> Part:
     return Part(
         name="wheel",
         title=f"{'internal ' if inner else ''}wheel of {spec.slots} slots",
-        stretches=tuple(_stretch(*piece) for piece in design.outlines_with(locking or 0.0).wheel_half()),
+        stretches=tuple(_stretch(*piece) for piece in outlines.wheel_half()),
         closed=True,
         teeth=spec.slots,
-        circles=() if spec.hub_radius is None else (Circle("HUB", spec.hub_radius),),
+        circles=(blank,) if spec.hub_radius is None else (blank, Circle("HUB", spec.hub_radius)),
         notes=(
             f"{form}; slots {2.0 * spec.pin_radius + spec.slot_clearance:.9g} mm wide, "
             f"{_wider(spec.slot_clearance, 'the pin')}",
@@ -984,6 +991,8 @@ def geneva_wheel(design: Any) -> Part:
             "frame: axis of the wheel at the origin, the middle of a slot on the x axis",
         ),
         findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
+        lines=partial(sizes.wheel_lines, design),
+        dimensions=sizes.wheel(outlines),
     )
 
 
@@ -997,6 +1006,8 @@ def geneva_driver(design: Any) -> Part:
     outlines = design.outlines_with(spec.locking_radius)
     pins = [Circle("PINS", spec.pin_radius, cmath.rect(drive.crank, _TURN * k / drive.pins)) for k in range(drive.pins)]
     shaft = [] if spec.shaft_radius is None else [Circle("SHAFT", spec.shaft_radius)]
+    deep = f"; the shaft of radius {spec.shaft_radius:.9g} mm does not go through the disc"
+    opens = spec.shaft_radius is not None and outlines.cut_vertex <= spec.shaft_radius
     return Part(
         name="driver",
         title="locking disc and pins of the crank",
@@ -1006,10 +1017,12 @@ def geneva_driver(design: Any) -> Part:
         notes=(
             f"pins of radius {spec.pin_radius:.9g} mm at {drive.crank:.9g} mm from the axis",
             "the crank's arm, which carries pin and disc, lies in front of the wheel and is not drawn",
-            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius",
+            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius{deep if opens else ''}",
             "frame: axis of the crank at the origin, a pin on the x axis",
         ),
         findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
+        lines=partial(sizes.driver_lines, design, outlines),
+        dimensions=sizes.driver(outlines),
     )
 
 

@@ -304,6 +304,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.of_motion:draw",
             profiles="cli.export.parts:planar",
             cut=True,
+            sheets={"drawing": "cli.views.figures.sheets.cam_sheets:planar_discs"},
             worked="planar_quick_return",
         ),
         Kind(
@@ -362,6 +363,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.of_motion:draw",
             scene="cli.views.figures.stepping:build_geneva",
             profiles="cli.export.parts:geneva",
+            cut=True,
             parts=("wheel", "driver"),
         ),
         Kind(
@@ -374,6 +376,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.stepping:cycloidal",
             scene="cli.views.figures.stepping:build_cycloidal",
             profiles="cli.export.parts:cycloidal",
+            cut=True,
             parts=("disc", "ring"),
         ),
         Kind(
@@ -388,6 +391,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.stepping:grooved",
             scene="cli.views.figures.stepping:build_grooved",
             profiles="cli.export.parts:grooved",
+            cut=True,
             parts=("groove_inner", "groove_outer"),
         ),
         Kind(
@@ -402,6 +406,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.stepping:grooved",
             scene="cli.views.figures.stepping:build_grooved",
             profiles="cli.export.parts:grooved",
+            cut=True,
             parts=("groove_inner", "groove_outer"),
         ),
         Kind(
@@ -417,6 +422,7 @@ KINDS: dict[str, Kind] = {
             scene="cli.views.figures.stepping:build_linked_cams",
             profiles="cli.export.parts:linked_cams",
             parts=("x_cam", "y_cam"),
+            sheets={"drawing": "cli.views.figures.sheets.cam_sheets:linked_discs"},
         ),
         Kind(
             "cylindrical-cam",

@@ -327,14 +327,24 @@ class Outlines:
 
     def _cut(self) -> Callable[[Reals], Points]:
         """The cut-out, an arc from edge to edge through its vertex."""
-        end, vertex = self.edge, self.cut_vertex
-        half = math.pi - 2.0 * cmath.phase(end - vertex)  # at the arc's centre, by the chord from vertex to edge
-        if abs(half) < _INSIDE:
+        end, vertex, radius = self.edge, self.cut_vertex, self.cut_radius
+        if math.isinf(radius):
             return partial(_straight, end.conjugate(), end)
-        radius = end.imag / math.sin(half)
+        half = self._cut_half
         return lambda t: complex(vertex + radius) - complex(radius) * units(-half * (2.0 * t - 1.0))
 
     @property
+    def _cut_half(self) -> float:
+        """Half of the angle of a cut-out's arc at its centre, by the chord from vertex to edge [rad]."""
+        return math.pi - 2.0 * cmath.phase(self.edge - self.cut_vertex)
+
+    @property
+    def cut_radius(self) -> float:
+        """Radius of a cut-out [mm], negative where it bulges; infinite: a chord."""
+        half = self._cut_half
+        return math.inf if abs(half) < _INSIDE else self.edge.imag / math.sin(half)
+
+    @cached_property
     def cut_vertex(self) -> float:
         """Where the cut-out crosses the pin's radius, from the crank's axis [mm].
 

@@ -258,6 +258,7 @@ class CamJoint:
         away : +1 or -1 - way of a positive lift in the follower's coordinate
         point : complex [mm] - roller centre, or a point of the face, in coordinates of the follower
         axis, bore : complex [mm] - of the cam, in coordinates of the carrier and of its own link
+        shaft : float [mm] - radius of its shaft at a point of the frame; 0 where the file names none
     """
 
     def __init__(self, structure: Structure, name: str, bearer: str) -> None:
@@ -270,6 +271,8 @@ class CamJoint:
         self.axis, self.bore = next(
             (at, bodies[each.cam][pin]) for pin, at in bodies[bearer].items() if pin in bodies[each.cam]
         )
+        pins = (pin for pin, at in bodies[FRAME].items() if self.carrier == 0 and at == self.axis)
+        self.shaft = max((structure.spec.shafts.get(f"{pin}_radius", 0.0) for pin in pins), default=0.0)
         self.point = bodies[each.follower][each.point]
         self._started = slid or each.follower
         self.zero = structure.start_of(self._started) or 0.0
@@ -606,9 +609,7 @@ def step_checks(structure: Structure) -> Iterator[Check]:
 def shaft_checks(structure: Structure) -> Iterator[Check]:
     """GL302 of every cam against its own shaft."""
     for name, cam in structure.cams.items():
-        pins = (pin for pin, at in structure.bodies[FRAME].items() if cam.carrier == 0 and at == cam.axis)
-        shaft = max((structure.spec.shafts.get(f"{pin}_radius", 0.0) for pin in pins), default=0.0)
-        yield from hub_checks(SHAFT_CLEARANCE, [cam.profile], shaft, partial(_farther, name))
+        yield from hub_checks(SHAFT_CLEARANCE, [cam.profile], cam.shaft, partial(_farther, name))
 
 
 def _farther(name: str, by: float) -> str:

@@ -156,9 +156,13 @@ def test_parts_that_are_drawn() -> None:
         "wide_swing_slider_cam": ["main_cam"],
         "wide_swing_slider": [],
         "ty460_gears": ["1", "2", "gear1", "gear2", "gear3", "gear4", "pinion", "lower_rack", "upper_rack"],
-        "planar_cam": [],
+        "planar_cam": ["1"],
+        "linked_cams": ["1", "2"],
+        "cycloidal_reducer": ["disc", "ring"],
+        "cam_gear": ["groove"],
+        "cam_linkage": ["groove"],
         "rack_stroke": ["pinion", "fixed_rack", "moving_rack"],
-        "geneva_drive": [],
+        "geneva_drive": ["wheel", "driver"],
     }
     for name, parts in names.items():
         found = [sheet for sheet in sheets_of(whole(name)) if sheet.startswith("drawing")]

@@ -30,19 +30,30 @@ _LARGEST_BORE = 130
 
 
 def discs(design: Any) -> tuple[DiscCam, ...]:
-    """The closed disc cams of a design, none where it has no section cam."""
+    """The closed disc cams of a design, none where its file has no cams."""
     place = KINDS[design.kind].sheets.get("drawing")
-    return load(place)(design) if place and design.spec.cam is not None else ()
+    return load(place)(design) if place else ()
 
 
 def press_discs(design: Any) -> tuple[DiscCam, ...]:
     """The main and the return cam of a press."""
-    return design.main_cam, design.return_cam
+    return () if design.spec.cam is None else (design.main_cam, design.return_cam)
 
 
 def gripper_discs(design: Any) -> tuple[DiscCam, ...]:
     """The cams of a gripper, and that of its fingers in the frame of the arm."""
-    return tuple(design.discs)
+    return () if design.spec.cam is None else tuple(design.discs)
+
+
+def linked_discs(design: Any) -> tuple[DiscCam, ...]:
+    """The cams of both coordinates of a path."""
+    return tuple(design.cams)
+
+
+def planar_discs(design: Any) -> tuple[Any, ...]:
+    """The cams of a planar mechanism, in the order of its file."""
+    cams = design.structure.cams.values()
+    return tuple(cam.profile if cam.given.face is None else UnderFace(cam.profile) for cam in cams)
 
 
 class UnderFace:

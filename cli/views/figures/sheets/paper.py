@@ -69,18 +69,19 @@ PAGES = (
 )  # fmt: skip
 
 
-def fitted(size: complex, beside: float = 0.0, pages: Sequence[Page] = PAGES) -> tuple[Page, float]:
+def fitted(size: complex, beside: complex = 0.0, pages: Sequence[Page] = PAGES) -> tuple[Page, float]:
     """The paper, and the largest standard scale at which a part fits on it: A3 where A4 needs less than 1:1.
 
     Parameters
         size : complex [mm] - width and height of the part
-        beside : float [mm] - room of the paper that something else takes in the width
+        beside : complex [mm] - room of the paper that something else takes in width and height
     Raises
         ValueError - of a part that no scale brings on the paper
     """
     found = []
     for page in pages:
-        wide, tall = page.view.right - page.view.left - 16.0 - beside, page.view.high - page.view.low - 12.0
+        wide = page.view.right - page.view.left - 16.0 - beside.real
+        tall = page.view.high - page.view.low - 12.0 - beside.imag
         scales = [s for s in SCALES if s * size.real <= wide and s * size.imag <= tall]
         if scales:
             found.append((page, scales[0]))

@@ -79,7 +79,7 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     for way in (1.0, 1j):
         line = np.array([-reach, reach]) * way
         axes.plot(line.real, line.imag, color=style.GREY, linewidth=0.35, linestyle="-.")
-    shaft = float(design.cams.section.shaft_radius) if hasattr(design.cams, "section") else 0.0
+    shaft = shaft_of(design, index)
     if shaft > 0.0:
         bore = shaft * np.exp(1j * theta)
         axes.plot(bore.real, bore.imag, color=style.BLACK, linewidth=0.7)
@@ -208,7 +208,7 @@ def workshop_drawing(design: Any, index: int) -> Figure:
     low, high = _reach(cam)
     page, scale = paper.fitted(high - low)
     made, axes = paper.sheet(page)
-    _view(axes, page, cam, scale, shaft_of(design))
+    _view(axes, page, cam, scale, shaft_of(design, index))
     paper.notes(axes, page, notes(design, cam))
     radii = enumerate(cam_sheets.pitch_radii(cam).tolist())
     paper.columns(axes, page, ("°", "R"), [(f"{degree}", f"{radius:.3f}") for degree, radius in radii], page.columns)
@@ -217,16 +217,21 @@ def workshop_drawing(design: Any, index: int) -> Figure:
     return made
 
 
-def shaft_of(design: Any) -> float:
-    """Radius of the shaft [mm]; 0 where the file does not name it."""
+def shaft_of(design: Any, index: int) -> float:
+    """Radius of the shaft of a cam [mm]; 0 where the file does not name it."""
+    if (structure := getattr(design, "structure", None)) is not None:
+        return float([*structure.cams.values()][index].shaft)
     section = getattr(getattr(design, "cams", None), "section", None) or getattr(design.spec, "cam", None)
     return float(getattr(section, "shaft_radius", None) or 0.0)
 
 
 def material_of(design: Any) -> str:
-    """What the file says of the material of cams."""
+    """What the file says of the material of cams and discs."""
     material = getattr(getattr(design.spec, "loads", None), "material", None)
-    return "" if material is None else f"E {material.modulus:g} N/mm²"
+    if material is not None:
+        return f"E {material.modulus:g} N/mm²"
+    given = "material" in design.spec.model_fields_set
+    return f"E {design.spec.material.elastic_modulus:g} N/mm²" if given else ""
 
 
 def _reach(cam: Any) -> tuple[complex, complex]:
@@ -350,11 +355,18 @@ def _number(value: float) -> str:
     return f"{value:.5g}" if math.isfinite(value) else "infinite"
 
 
-def _tolerances(design: Any) -> Iterator[str]:
-    """Limits of the sizes of cam and follower in the file's section `tolerance`."""
+def limits_of(design: Any) -> str:
+    """The limits of all sizes in the file's section `tolerance`."""
+    found = "; ".join(_tolerances(design, ("",)))
+    return f"Tolerances: {found}. Roughness as agreed." if found else (
+        "No tolerance in the file (tolerance.sources): sizes, profile and roughness as agreed.")  # fmt: skip
+
+
+def _tolerances(design: Any, parts: Sequence[str] = ("cam", "roller")) -> Iterator[str]:
+    """Limits of sizes in the file's section `tolerance`, those of cam and follower."""
     section = getattr(design.spec, "tolerance", None)
     for key, source in (getattr(section, "sources", None) or {}).items():
         limits = getattr(source, "limits", None)
-        if limits is not None and ("cam" in key or "roller" in key):
+        if limits is not None and any(part in key for part in parts):
             words = f"±{limits:g}" if isinstance(limits, float) else " / ".join(f"{each:+g}" for each in limits)
             yield f"{key} {words}"
