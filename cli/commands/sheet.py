@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -189,6 +190,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
 
     Raises
         NoSolution - where the mechanism cannot make its turn
+        DesignFileError - for a scale where there are no disc cams
     """
     from gearlink.cli.views.figures import loads, tolerance
     from gearlink.cli.views.figures.sheets import (
@@ -222,11 +224,11 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     if cams and "pressure" in KINDS[design.kind].sheets and cams[0].roller_radius:
         found["pressure"] = lambda: cam_sheets.pressure(design)
         found["contact"] = lambda: motion_sheet.contact(design)
-    if scale is not None:
-        for i in range(len(cams)):
-            found[f"drawing-{i + 1}"] = lambda i=i: true_size.drawing(design, i, scale)  # type: ignore[misc]
-        return found
-    for i in range(len(cams)):
-        found[f"drawing-{i + 1}"] = lambda i=i: true_size.workshop_drawing(design, i)  # type: ignore[misc]
-    found.update((f"drawing-{name}", make) for name, make in part_drawing.drawn(design).items())
+    if scale is not None and not cams:
+        message = f"--scale is for drawings of disc cams, of which this {design.kind} has none\nomit --scale"
+        raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--scale")])
+    drawing = true_size.workshop_drawing if scale is None else partial(true_size.drawing, scale=scale)
+    found |= {f"drawing-{i + 1}": partial(drawing, design, i) for i in range(len(cams))}
+    if scale is None:
+        found.update((f"drawing-{name}", make) for name, make in part_drawing.drawn(design).items())
     return found

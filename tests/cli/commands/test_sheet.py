@@ -217,6 +217,29 @@ def test_what_a_design_has_not_is_refused(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(
+    ("name", "asked", "words"),
+    [
+        (
+            "cam_gear",
+            ("drawing", "--scale", "1"),
+            "--scale is for drawings of disc cams, of which this cam-gear has none",
+        ),
+        ("linked_cams", ("motion", "--scale", "1"), "--scale is for drawings of cams alone"),
+        ("linked_cams", ("drawing", "--scale", "2:1"), "--scale 2:1 is no scale"),
+        ("linked_cams", ("drawing", "--paper", "A4"), "--paper without --scale"),
+    ],
+)
+def test_a_scale_that_nothing_has_is_refused(
+    gearlink: Any, designs: Path, tmp_path: Path, name: str, asked: tuple[str, ...], words: str
+) -> None:
+    """Of what has no disc cams, its drawings had been said not to exist."""
+    ended = gearlink("sheet", designs / f"{name}.yaml", *asked, "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert words in ended.err
+    assert not (tmp_path / "out").exists()
+
+
 def test_kinds_with_sheets() -> None:
     assert list(sheets_of(design(worked("swing_gripper")))) == [
         "motion",
