@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
@@ -23,7 +24,8 @@ from gearlink.core.numerics.arrays import Reals
 JAM = 1e-9  # of the input's unit, a certified step so short is a dead centre, known to about as much
 TURN = 2.0 * math.pi
 MOST_TURNS = 100
-_MOST_STEPS = 100_000
+_MOST_STEPS = 5_000
+"""A revolution; mechanisms whose sizes are of one order take some hundred."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +89,9 @@ class Refusals(Protocol):
 
     def never_home(self) -> NoSolution:
         """It does not repeat within `MOST_TURNS` turns."""
+
+    def too_fast(self, q: float, steps: int) -> NoSolution:
+        """So many certain steps lead no farther than to q."""
 
 
 class _Ways(NamedTuple):
@@ -178,13 +183,22 @@ class Walk:
         return places
 
     def follow(self, places: list[Place], end: float) -> bool:
-        """Go on from the last place to an input; False where a dead centre is met before."""
-        places.extend(islice(onwards(self.follower, places[-1], end), _MOST_STEPS - len(places)))
+        """Go on from the last place to an input; False where a dead centre is met before.
+
+        Raises
+            NoSolution - where more steps would be needed than it is worth to wait for
+        """
+        most = _MOST_STEPS * max(1, math.ceil(abs(end - places[-1].q) / TURN))
+        new = list(islice(onwards(self.follower, places[-1], end), most))
+        places += new
+        if len(new) == most and places[-1].q != end:
+            raise self.refusals.too_fast(places[-1].q, most)
         return places[-1].q == end
 
     def _jam(self, q: float) -> NoSolution:
-        back = [self.origin]
-        free = self.follow(back, -math.copysign(TURN, q))
+        back, free = [self.origin], False
+        with suppress(NoSolution):
+            free = self.follow(back, -math.copysign(TURN, q))
         return self.refusals.jams(q, None if free else back[-1].q, ranged=self.range is not None)
 
     def tangents(self, q: Reals) -> Reals:

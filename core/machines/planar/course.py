@@ -122,6 +122,14 @@ class _Refusals:
             fix="take ratios and teeth with common factors, or give range: {start, end}",
         )
 
+    def too_fast(self, q: float, steps: int) -> NoSolution:
+        return NoSolution(
+            f"the motion is too fast to follow: {steps} steps lead to input {short(self.course.shown(q))} "
+            f"{self.course.unit}",
+            key="meshes" if self.course.structure.spec.meshes else "links",
+            fix="check lengths, modules and teeth: some sizes are hundreds of times larger than others",
+        )
+
 
 @dataclass(frozen=True)
 class Course:
@@ -239,7 +247,9 @@ class Course:
         for way in (-1.0, 1.0):
             places = [self.walk.origin]
             end = way * max(far, *(2.0 * abs(each * self._scale) for each in self.ends or (0.0,)))
-            jams = not self.walk.follow(places, end)
+            jams = False
+            with suppress(NoSolution):
+                jams = not self.walk.follow(places, end)
             ends.append(self.dead_centre(places[-1].q) / self._scale if jams else None)
         return None if ends == [None, None] else (ends[0], ends[1])
 

@@ -946,6 +946,13 @@ class _Refusals:
             fix="take teeth with common factors, or give range: {start, end}",
         )
 
+    def too_fast(self, q: float, steps: int) -> NoSolution:
+        return NoSolution(
+            f"the motion is too fast to follow: {steps} steps lead to input angle {short(math.degrees(q))} deg",
+            key="links",
+            fix="check lengths and teeth: some sizes are hundreds of times larger than others",
+        )
+
 
 @dataclass(frozen=True)
 class Course:
