@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.numerics.together import Function, Search, values_of
 
 POINTS = 17
@@ -161,8 +161,9 @@ def maximum_over(
     Parameters
         f : function of a float64 array, returning one like it; or a row for each of N functions that are sought
             together, of (M,) places for all of them, and of (N, M) places, a row for each
-        start, end : float - the interval, one revolution by default
-        joints : floats - places where the function or a derivative may jump; both one-sided values count
+        start, end : float - the interval, one revolution by default; (N, 1) array of N functions that have their own
+        joints : floats - places where the function or a derivative may jump; both one-sided values count; (N, 1)
+            arrays where each of N functions has its own, all of them within the interval
         samples : int - points over the interval; two humps closer than four steps may be taken for one
         fewest : int - points between two joints at least
     Returns
@@ -177,10 +178,12 @@ def maximum_over(
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
     """
-    search = _maximum(start, end, joints, samples, fewest)
-    v = f(next(search))
+    grid = _grid_of(start, end, joints, samples, fewest)
+    v = f(grid.x)
     if v.ndim > 1:
-        return _maximum_of_rows(f, v, start, end, joints, samples, fewest)
+        return _extremes_of_rows([(f, True)], [v], grid)[0]
+    search = _maximum(grid)
+    next(search)
     try:
         while True:
             (v,) = values_of([f], search.send(v))
@@ -189,25 +192,68 @@ def maximum_over(
         return top
 
 
-def _maximum_of_rows(
-    f: Function, v: Reals, start: float, end: float, joints: Sequence[float], samples: int, fewest: int
-) -> Extreme:
-    """The search of maximum_over for each row of what a function gives; value and place are columns."""
-    search = _maxima(len(v), start, end, joints, samples, fewest)
-    grid = next(search)
+def _extremes_of_rows(wanted: Sequence[tuple[Function, bool]], values: Sequence[Reals], grid: _Grid) -> list[Extreme]:
+    """The searches of extremes_over for each row of what functions give; values and places are columns.
+
+    Parameters
+        values : of the functions on the grid, a row for each of N or one for all
+    Notes
+        In every round all functions are asked at the very same array, which has as many places in each row.
+    """
+    rows, count = max(len(v) for v in values if v.ndim > 1), len(wanted)
+    signs = np.array([1.0 if greatest else -1.0 for _, greatest in wanted])
+    v = np.stack([np.broadcast_to(each, (rows, each.shape[-1])) for each in values], axis=1) * signs[:, None]
+    search = _maxima(rows * count, grid, np.repeat(np.arange(rows), count))
+    next(search)
     try:
+        asked = search.send(v.reshape(rows * count, -1))
         while True:
-            asked = search.send(v)
-            of = np.concatenate([np.full(part.stop - part.start, row) for row, part in asked.parts])
-            first = np.searchsorted(of, of)
-            within = np.arange(of.size) - first
-            places = np.full((len(grid.parts), int(within.max()) + 1, POINTS), grid.places[0])
-            places[of, within] = asked.places
-            v = f(places.reshape(len(places), -1)).reshape(places.shape)[of, within]
-    except StopIteration as found:
-        tops: list[Extreme] = found.value
-    values, where = (np.array(part)[:, None] for part in zip(*tops, strict=True))
-    return Extreme(values, where)  # type: ignore[arg-type]
+            row, number = np.divmod(asked.of, count)
+            within = np.arange(row.size) - np.searchsorted(row, row)
+            places = np.empty((rows, int(within.max()) + 1, POINTS))
+            places[:] = grid.x[..., :1, None]  # where a row has fewer
+            places[row, within] = asked.places
+            found = _values_of_rows([f for f, _ in wanted], places, number, row, within)
+            asked = search.send(found * signs[number, None])
+    except StopIteration as end:
+        tops = np.array(end.value).reshape(rows, count, 2)
+    least = signs < 0.0
+    tops[:, least, 0] = 0.0 - tops[:, least, 0]
+    return [Extreme(tops[:, i, :1], tops[:, i, 1:]) for i in range(count)]  # type: ignore[arg-type]
+
+
+def _values_of_rows(
+    functions: Sequence[Function], places: Reals, number: NDArray[np.intp], *at: NDArray[np.intp]
+) -> Reals:
+    """Values in brackets, of the function with the number of each."""
+    flat, found = places.reshape(len(places), -1), np.empty((number.size, POINTS))
+    values: dict[Function, Reals] = {}
+    for k in distinct(number).tolist():
+        f, own = functions[k], number == k
+        if f not in values:
+            values[f] = np.broadcast_to(f(flat), flat.shape).reshape(places.shape)
+        found[own] = values[f][tuple(each[own] for each in at)]
+    return found
+
+
+def least_of(found: Extreme, values: Reals, places: Reals) -> Extreme:
+    """The least of an extreme and values at some places, of equal ones that at the lower place; of many, row by row.
+
+    Parameters
+        found : Extreme - of N functions with columns
+        values, places : arrays with a row for each, or one row for all
+    Example
+        >>> least_of(Extreme(2.0, 0.5), np.array([[1.0, 2.0]]), np.array([[0.0, 1.0]]))
+        Extreme(value=1.0, place=0.0)
+    """
+    rows = max(np.size(found.value), len(values))
+    every, seats = (
+        np.hstack([np.broadcast_to(np.reshape(one, (-1, 1)), (rows, 1)), np.broadcast_to(more, (rows, more.shape[1]))])
+        for one, more in zip(found, (values, places), strict=True)
+    )
+    least = every.min(axis=1, keepdims=True)
+    place = np.where(every == least, seats, np.inf).min(axis=1, keepdims=True)
+    return Extreme(least, place) if rows > 1 else Extreme(float(least[0, 0]), float(place[0, 0]))
 
 
 def greatest(values: Sequence[float]) -> float:
@@ -272,22 +318,25 @@ def extremes_of_parts(
         if asked.places.ndim == 1:
             return np.array([values[k][rows] * sign for k, sign in zip(of, signs, strict=True)])
         found = np.empty(asked.places.shape)
-        for search, part in asked.parts:
+        for search, part in _parts(asked.of):
             np.multiply(values[of[search]][rows].reshape(found.shape)[part], signs[search], out=found[part])
         return found
 
-    searches = [_maxima(len(wanted), start, end, joints, samples, fewest) for start, end in parts]
+    grids = [_grid_of(start, end, joints, samples, fewest) for start, end in parts]
+    searches = [_maxima(len(wanted), grid) for grid in grids]
     asked = dict(enumerate(map(next, searches)))
     tops: list[list[Extreme]] = [[]] * len(parts)
     while asked:
         rounds = list(asked.items())
-        wanted_now = list(dict.fromkeys(of[search] for _, each in rounds for search, _ in each.parts))
-        places = [each.places.ravel() for _, each in rounds]
-        flat = places[0] if len(places) == 1 else np.concatenate(places)
-        values = dict(zip(wanted_now, values_of([functions[k] for k in wanted_now], flat), strict=True))
-        if any(v.ndim > 1 for v in values.values()):  # a row for each of many: they share no round
-            of_rows = [(maximum_over if top else minimum_over, f) for f, top in wanted]
-            return [[one(f, *part, joints=joints, samples=samples) for one, f in of_rows] for part in parts]
+        wanted_now = list(dict.fromkeys(of[search] for _, each in rounds for search in distinct(each.of).tolist()))
+        values = dict(zip(wanted_now, _at_once([functions[k] for k in wanted_now], asked.values()), strict=True))
+        if any(v.ndim > 1 for v in values.values()):  # a row for each of many, on the grids
+            ends = np.cumsum([grid.x.shape[-1] for grid in grids]).tolist()
+            spans = [slice(end - grid.x.shape[-1], end) for grid, end in zip(grids, ends, strict=True)]
+            return [
+                _extremes_of_rows(wanted, [values[k][..., span] for k in of], grid)
+                for grid, span in zip(grids, spans, strict=True)
+            ]
         first = 0
         for number, each in rounds:
             rows = slice(first, first := first + each.places.size)
@@ -303,6 +352,13 @@ def extremes_of_parts(
         ]
         for found in tops
     ]
+
+
+def _at_once(functions: Sequence[Function], asked: Iterable[_Asked]) -> list[Reals]:
+    """Values of functions at all places that are asked; a grid is handed on as it is, since what is shared is kept."""
+    places = [each.places if each.is_grid else each.places.ravel() for each in asked]
+    flat = places[0] if len(places) == 1 else np.concatenate(places, axis=-1)
+    return values_of(functions, flat) if flat.ndim == 1 else [f(flat) for f in functions]
 
 
 def share_of(place: Reals, width: float | Reals) -> Reals:
@@ -326,9 +382,9 @@ def _negative(f: Function) -> Function:
     return lambda x: -f(x)
 
 
-def _maximum(start: float, end: float, joints: Sequence[float], samples: int, fewest: int) -> Search[Extreme]:
+def _maximum(grid: _Grid) -> Search[Extreme]:
     """The search of maximum_over."""
-    search = _maxima(1, start, end, joints, samples, fewest)
+    search = _maxima(1, grid)
     try:
         asked = next(search)
         while True:
@@ -340,25 +396,28 @@ def _maximum(start: float, end: float, joints: Sequence[float], samples: int, fe
 
 
 class _Asked(NamedTuple):
-    """Places of a round: (N,) on the grid, for every search, or (brackets, points), and each search with its own."""
+    """Places of a round: those of the grid, for every search, or (brackets, points), and the search of each bracket."""
 
     places: Reals
-    parts: Sequence[tuple[int, slice]]
+    of: NDArray[np.intp]
+    is_grid: bool = False
 
 
-def _maxima(
-    count: int, start: float, end: float, joints: Sequence[float], samples: int, fewest: int
-) -> Generator[_Asked, Reals, list[Extreme]]:
-    """Searches of maximum_over over one interval, all in the same arrays; their values are sent as rows."""
-    grid = _grid(start, end, tuple(joints), samples, fewest)
-    v = yield _Asked(grid.x, [(search, slice(None)) for search in range(count)])
-    tops = np.argmax(v, axis=1).tolist()
-    best = [Extreme(float(row[i]), grid.ends.get(i, float(grid.x[i]))) for row, i in zip(v, tops, strict=True)]
+def _maxima(count: int, grid: _Grid, rows: NDArray[np.intp] | None = None) -> Generator[_Asked, Reals, list[Extreme]]:
+    """Searches of maximum_over over one interval, all in the same arrays; their values are sent as rows.
+
+    Parameters
+        rows : (count,) array - row of the grid of each search, if it has rows
+    """
+    v = yield _Asked(grid.x, np.arange(count), is_grid=True)
+    tops = np.argmax(v, axis=1)
+    best = list(map(Extreme, v[np.arange(count), tops].tolist(), grid.at(grid.bounded, rows, tops).tolist()))
     of, places = _promising(v, np.array([[top.value] for top in best]), grid)
-    finest = 8.0 * math.ulp(max(abs(start), abs(end)))
+    row = None if rows is None else rows[of]
     nothing = _NOTHING * np.max(np.abs(v), axis=1, where=np.isfinite(v), initial=0.0)
-    yield from _enlarged(of, grid.left[places], grid.right[places], best, finest, nothing)
-    return [_at_an_end(top, row, grid, least) for top, row, least in zip(best, v, nothing.tolist(), strict=True)]
+    left, right = grid.at(grid.left, row, places), grid.at(grid.right, row, places)
+    yield from _enlarged(of, left, right, best, grid.finest, nothing)
+    return _at_ends(best, v, grid, rows, nothing)
 
 
 def minimum_over(
@@ -410,21 +469,51 @@ class _Grid(NamedTuple):
     """The samples between all joints.
 
     Fields
-        x : (N,) array
+        x : (N,) array, or rows of such where joints are not the same for all
+        bounded : as x, with the joints themselves instead of the first and last sample of each segment
         segment : (N,) array - of each sample; `first` holds the index of each segment's first
         before, after : (N,) arrays - index of the neighbours; at an end of a segment the one within it twice
-        left, right : (N,) arrays - places of the neighbours; at an end of a segment that end
-        ends : index of each segment's first and last sample, with the joint that it stands for
+        left, right : as x - places of the neighbours; at an end of a segment that end
+        is_end : (N + 2,) array - whether a sample stands for a joint; for none before the first and after the last
+        finest : float - width of a bracket that is not divided again
     """
 
     x: Reals
+    bounded: Reals
     segment: NDArray[np.intp]
     first: NDArray[np.intp]
     before: NDArray[np.intp]
     after: NDArray[np.intp]
     left: Reals
     right: Reals
-    ends: dict[int, float]
+    is_end: NDArray[np.bool_]
+    finest: float
+
+    def at(self, values: Reals, rows: NDArray[np.intp] | None, index: NDArray[np.intp]) -> Reals:
+        """Values of samples, in the rows where the grid has rows."""
+        return values[index] if values.ndim == 1 else values[rows, index]
+
+    def after_of(self, places: Reals, rows: NDArray[np.intp] | None) -> NDArray[np.intp]:
+        """Index of the first sample that is not before a place."""
+        if self.x.ndim == 1:
+            found: NDArray[np.intp] = self.x.searchsorted(places)
+            return found
+        return np.asarray(np.add.reduce(self.x[rows] < places[:, None], axis=1, dtype=np.intp))
+
+
+def _grid_of(
+    start: float | Reals, end: float | Reals, joints: Sequence[float | Reals], samples: int, fewest: int
+) -> _Grid:
+    """The grid of an interval; one with rows where something is a column."""
+    if not any(isinstance(bound, np.ndarray) for bound in (start, end, *joints)):
+        return _grid(start, end, tuple(joints), samples, fewest)  # type: ignore[arg-type]
+    inside = [joint for joint in joints if np.all((joint > start) & (joint < end))]
+    bounds = np.hstack(np.broadcast_arrays(*(np.reshape(bound, (-1, 1)) for bound in (start, *inside, end))))
+    bounds.sort(axis=1)
+    shares = (bounds[:, 1:] - bounds[:, :-1]) / (bounds[:, -1:] - bounds[:, :1])
+    counts = np.maximum(fewest, np.ceil(samples * shares.max(axis=0)).astype(int) + 1).tolist()
+    parts = [_samples(*ends, count) for ends, count in zip(pairwise(bounds.T), counts, strict=True)]
+    return _grid_from(bounds, parts)
 
 
 @lru_cache(maxsize=32)
@@ -435,21 +524,31 @@ def _grid(start: float, end: float, joints: tuple[float, ...], samples: int, few
         _samples(left, right, max(fewest, math.ceil(samples * (right - left) / (end - start)) + 1))
         for left, right in pairwise(bounds)
     ]
-    sizes = [part.size for part in parts]
+    return _grid_from(np.array(bounds), parts)
+
+
+def _grid_from(bounds: Reals, parts: Sequence[Reals]) -> _Grid:
+    """The grid of samples between bounds, (K,) and (K - 1) arrays, or rows of such."""
+    sizes = [part.shape[-1] for part in parts]
     last = np.cumsum(sizes) - 1
     first = last + 1 - np.array(sizes)
-    x, index = np.concatenate(parts), np.arange(sum(sizes))
+    x, index = np.concatenate(parts, axis=-1), np.arange(sum(sizes))
+    bounded = x.copy()
+    bounded[..., first], bounded[..., last] = bounds[..., :-1], bounds[..., 1:]
     x.flags.writeable = False
     before, after = index - 1, index + 1
     left, right = before.copy(), after.copy()
     before[first], after[last], left[first], right[last] = first + 1, last - 1, first, last
-    ends = dict(zip(first.tolist(), bounds[:-1], strict=True)) | dict(zip(last.tolist(), bounds[1:], strict=True))
-    return _Grid(x, np.repeat(np.arange(len(parts)), sizes), first, before, after, x[left], x[right], ends)
+    is_end = np.zeros(index.size + 2, dtype=bool)
+    is_end[first + 1] = is_end[last + 1] = True
+    finest = 8.0 * float(np.spacing(np.abs(bounds).max()))
+    segment = np.repeat(np.arange(len(parts)), sizes)
+    return _Grid(x, bounded, segment, first, before, after, x[..., left], x[..., right], is_end, finest)
 
 
-def _samples(left: float, right: float, samples: int) -> Reals:
-    inside = _INSIDE_ULPS * math.ulp(max(abs(left), abs(right)))
-    return np.linspace(left + inside, right - inside, samples)
+def _samples(left: float | Reals, right: float | Reals, samples: int) -> Reals:
+    inside = _INSIDE_ULPS * np.spacing(np.maximum(np.abs(left), np.abs(right)))
+    return np.linspace(left + inside, right - inside, samples, axis=-1)
 
 
 def _promising(v: Reals, tops: Reals, grid: _Grid) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -487,7 +586,7 @@ def _enlarged(
     safe_left, safe_right = left, right
     while left.size:
         x = left[:, None] + (right - left)[:, None] * _UNIT
-        v = yield _Asked(x, _parts(of))
+        v = yield _Asked(x, of)
         rows, i = np.arange(left.size), v.argmax(axis=1)
         peak, place = v[rows, i], x[rows, i]
         for search, value, where in zip(of.tolist(), peak.tolist(), place.tolist(), strict=True):
@@ -516,17 +615,27 @@ def _enlarged(
             (safe_left, safe_right), left, right = near, next_left, next_right
 
 
-def _at_an_end(top: Extreme, v: Reals, grid: _Grid, nothing: float) -> Extreme:
-    """The extreme at the end of its segment, where it lies beside that end and the end is as good but for rounding.
+def _at_ends(
+    best: Sequence[Extreme], v: Reals, grid: _Grid, rows: NDArray[np.intp] | None, nothing: Reals
+) -> list[Extreme]:
+    """The extremes at the end of their segment, where they lie beside it and the end is as good but for rounding.
 
     Where a function rises towards the end, the value some ulps before it may be rounded up and that at the end down.
     Such a place is off by rounding over the slope; the drive angle of a stroke that comes to rest at its end is then
     off by the square root of that, or more.
     """
-    after = int(np.searchsorted(grid.x, top.place))
-    least = top.value - max(_FLAT_ULPS * math.ulp(top.value), nothing)
-    ends = [k for k in (after - 1, after) if k in grid.ends and v[k] >= least]
-    return Extreme(top.value, grid.ends[max(ends, key=v.__getitem__)]) if ends else top
+    found = list(best)
+    after = grid.after_of(np.array([top.place for top in best]), rows)
+    beside = grid.is_end[after] | grid.is_end[after + 1]
+    for search in np.flatnonzero(beside).tolist():
+        top, k = best[search], int(after[search])
+        least = top.value - max(_FLAT_ULPS * math.ulp(top.value), float(nothing[search]))
+        ends = [i for i in (k - 1, k) if grid.is_end[i + 1] and v[search, i] >= least]
+        if ends:
+            at = np.array(max(ends, key=v[search].__getitem__))
+            row = None if rows is None else rows[search]
+            found[search] = Extreme(top.value, float(grid.at(grid.bounded, row, at)))
+    return found
 
 
 def _parts(of: NDArray[np.intp]) -> list[tuple[int, slice]]:

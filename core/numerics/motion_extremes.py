@@ -43,11 +43,11 @@ def extremes(
     """
     from gearlink.core.numerics.extremes import extremes_over
 
+    wanted = [(curve, greatest) for curve in curves.values() for greatest in (True, False)]
+    sides = [f"{name}_{side}" for name in curves for side in ("max", "min")]
     found: dict[str, float] = {}
-    for name, curve in curves.items():
-        top, low = extremes_over([(curve, True), (curve, False)], start, end, joints=joints, samples=samples)
-        found |= {f"{name}_max": top.value, f"{name}_max_at": top.place}
-        found |= {f"{name}_min": low.value, f"{name}_min_at": low.place}
+    for side, extreme in zip(sides, extremes_over(wanted, start, end, joints=joints, samples=samples), strict=True):
+        found |= {side: extreme.value, f"{side}_at": extreme.place}
     return found
 
 

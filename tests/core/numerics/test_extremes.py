@@ -17,7 +17,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.numerics.extremes import TURN, Extreme, least_convex_radius, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import (
+    TURN,
+    Extreme,
+    extremes_of_parts,
+    extremes_over,
+    least_convex_radius,
+    least_of,
+    maximum_over,
+    minimum_over,
+)
 
 EPS = 2.0**-52
 PLACE = 2e-7
@@ -159,3 +168,73 @@ def test_a_place_beside_an_end_that_is_better_by_more_than_rounding_stays() -> N
 def test_no_convex_part_has_no_least_radius() -> None:
     assert least_convex_radius(lambda x: -0.01 + 0.0 * x).value == math.inf
     assert least_convex_radius(lambda x: 0.01 * np.cos(x)).value == pytest.approx(100.0, rel=4 * EPS)
+
+
+SHIFT = np.array([[0.3], [1.0], [5.9]])
+
+
+def _wave(x: np.ndarray, shift: Any = SHIFT) -> np.ndarray:
+    return np.cos(x - shift) + 0.3 * np.sin(3.0 * x)
+
+
+def _same(found: Extreme, alone: list[Extreme]) -> None:
+    for row, each in enumerate(alone):
+        assert np.ravel(found.value)[row] == pytest.approx(each.value, rel=1e-15, abs=1e-15)
+        assert np.ravel(found.place)[row] == pytest.approx(each.place, abs=PLACE)
+
+
+def test_rows_of_several_functions_share_their_rounds() -> None:
+    asked: list[int] = []
+
+    def shared(x: np.ndarray) -> np.ndarray:
+        asked.append(id(x))
+        return _wave(x)
+
+    top, low, plain = extremes_over([(shared, True), (lambda x: 2.0 * _wave(x), False), (np.sin, True)], samples=256)
+    _same(top, [maximum_over(lambda x, s=s: _wave(x, s), samples=256) for s in SHIFT.ravel()])  # type: ignore[misc]
+    _same(low, [minimum_over(lambda x, s=s: 2.0 * _wave(x, s), samples=256) for s in SHIFT.ravel()])  # type: ignore[misc]
+    assert np.ravel(plain.value) == pytest.approx([1.0] * 3, abs=1e-15)
+    assert len(asked) == len(set(asked))
+
+
+def test_rows_whose_ends_and_joints_differ() -> None:
+    ends, joints = SHIFT + 0.25, [0.4 * SHIFT, 0.7 * SHIFT]
+
+    def stepped(x: np.ndarray, shift: Any = SHIFT) -> np.ndarray:
+        return np.where(x < 0.4 * shift, x, np.where(x < 0.7 * shift, 3.0 - x / shift, np.sin(x)))
+
+    for greatest in (True, False):
+        (found,) = extremes_over([(stepped, greatest)], 0.0, ends, joints=joints, samples=200)  # type: ignore[arg-type]
+        for row, shift in enumerate(SHIFT.ravel()):
+            wanted = [(lambda x, shift=shift: stepped(x, shift), greatest)]  # type: ignore[misc]
+            own = [0.4 * shift, 0.7 * shift]
+            (alone,) = extremes_over(wanted, 0.0, shift + 0.25, joints=own, samples=200)
+            assert found.value[row, 0] == pytest.approx(alone.value, abs=1e-14)  # type: ignore[index]
+            assert found.place[row, 0] == pytest.approx(alone.place, abs=1e-14)  # type: ignore[index]
+
+
+def test_rows_over_several_parts() -> None:
+    found = extremes_of_parts([(_wave, True)], [(0.0, 2.0), (3.0, 6.0)], samples=128)
+    for (top,), part in zip(found, [(0.0, 2.0), (3.0, 6.0)], strict=True):
+        _same(top, [maximum_over(lambda x, s=s: _wave(x, s), *part, samples=128) for s in SHIFT.ravel()])  # type: ignore[misc]
+
+
+def test_a_grid_is_asked_for_as_it_is() -> None:
+    """Results that are kept for a grid serve whoever seeks over the same interval next."""
+    grids: list[np.ndarray] = []
+    for _ in range(2):
+        extremes_over([(lambda x: grids.append(x) or np.sin(x), True)], samples=128)  # type: ignore[func-returns-value]
+    first = [grid for grid in grids if grid.size > 128]
+    assert len(first) == 2
+    assert first[0] is first[1]
+    assert not first[0].flags.writeable
+
+
+def test_the_least_of_an_extreme_and_two_ends() -> None:
+    ends = np.array([[0.0, 1.0]])
+    assert least_of(Extreme(1.0, 0.5), np.array([[2.0, 1.0]]), ends) == Extreme(1.0, 0.5)
+    many = least_of(
+        Extreme(np.array([[1.0], [3.0]]), np.array([[0.5], [0.6]])), np.array([[0.0, 0.0], [4.0, 2.0]]), ends
+    )  # type: ignore[arg-type]
+    assert np.ravel(many.value).tolist() == [0.0, 2.0]
+    assert np.ravel(many.place).tolist() == [0.0, 1.0]
