@@ -709,7 +709,7 @@ def _found(designs: Sequence[DiscCamDesign], spec: DiscCamSpec, names: Sequence[
     if spec.is_flat:
         _give(many, designs, "cams.flat", "min_curvature_radius", "contact_places", *wanted)
     else:
-        wanted |= {"most_convex", "star_shaped"}
+        wanted |= {"most_convex", "least_support"}
         if "min_concave_radius" in names or spec.closure == "groove" or spec.cam.cutter_radius is not None:
             wanted.add("most_hollow")
         for name in ("main",) if spec.return_roller is None else ("main", "back"):

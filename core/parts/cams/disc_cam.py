@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
@@ -27,18 +26,11 @@ from gearlink.core.parts.cams.undercut import Undercut, undercut
 
 _TURN = 2.0 * math.pi
 SAMPLES = 512
-FOUND_TOGETHER = ("max_pressure_angle", "most_convex", "max_radius", "min_radius")
+_WITH_PLACE = ("max_pressure_angle", "most_convex")
+FOUND_TOGETHER = (*_WITH_PLACE, "max_radius", "min_radius", "least_support")
 
 
-@cache
-def _whole_turn() -> Reals:
-    """Close cam angles over the turn, one array for all: a motion that is kept for it serves both cams."""
-    angles = np.linspace(0.0, _TURN, 2049)
-    angles.flags.writeable = False
-    return angles
-
-
-def seek_together(cams: Sequence[DiscCam]) -> None:
+def seek_together(cams: Sequence[DiscCam], names: Sequence[str] = FOUND_TOGETHER) -> None:
     """Seek pressure angle, curvature and radii of cams of one motion in common rounds; the cams keep what is found.
 
     Notes
@@ -47,13 +39,11 @@ def seek_together(cams: Sequence[DiscCam]) -> None:
     functions: list[tuple[Function, bool]] = []
     for cam in cams:
         near = replace(cam, path=_kept(cam.path))
-        functions += [(near.size_of_pressure_angle, True), (near.curvature, True)]
-        functions += [(near.radius, True), (near.radius, False)]
+        functions += [near.sought[name] for name in names]
     found = iter(extremes_over(functions, joints=cams[0].bounds, samples=SAMPLES))
     for cam in cams:
-        angle, curvature, greatest, least = next(found), next(found), next(found), next(found)
-        extremes = angle, curvature, greatest.value, least.value
-        keep(cam, **dict(zip(FOUND_TOGETHER, extremes, strict=True)))
+        extremes = [(name, next(found)) for name in names]
+        keep(cam, **{name: found if name in _WITH_PLACE else found.value for name, found in extremes})
 
 
 def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int) -> list[Extreme]:
@@ -115,6 +105,11 @@ class DiscCam:
         with at_key(self.key):
             return profile.curvature(cam_angle, self.path(cam_angle, 2), sense=self.sense)
 
+    def support(self, cam_angle: Reals) -> Reals:
+        """Distance of the cam axis from the tangent of the pitch curve [mm] at cam angles."""
+        with at_key(self.key):
+            return profile.support(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+
     def points(self, cam_angle: Reals) -> tuple[Points, Points]:
         """Pitch and profile points [mm] at cam angles, in the cam's frame."""
         with at_key(self.key):
@@ -137,6 +132,13 @@ class DiscCam:
             leaves has the same minimum radius and stays within the maximum; the loop does not.
         """
         return np.abs(self.path(cam_angle, 1).position) - self.roller_radius
+
+    @property
+    def sought(self) -> dict[str, tuple[Function, bool]]:
+        """By the names of `FOUND_TOGETHER` the function whose extreme each is, and whether it is the greatest."""
+        found = ((self.size_of_pressure_angle, True), (self.curvature, True))
+        rest = ((self.radius, True), (self.radius, False), (self.support, False))
+        return dict(zip(FOUND_TOGETHER, (*found, *rest), strict=True))
 
     @cached_property
     def max_pressure_angle(self) -> Extreme:
@@ -182,12 +184,14 @@ class DiscCam:
         return undercut(self.points, self.roller_radius)
 
     @cached_property
+    def least_support(self) -> float:
+        """Minimum distance of the cam axis from the tangents of the pitch curve [mm]."""
+        return minimum_over(self.support, joints=self.bounds, samples=SAMPLES).value
+
+    @cached_property
     def star_shaped(self) -> bool:
-        """Whether the polar angle of the profile runs one way."""
-        profile = self.points(_whole_turn())[1]
-        turn = -self.sense * np.imag(np.conj(profile[..., :-1]) * profile[..., 1:])
-        found: bool = np.all(turn > 0.0, axis=-1)
-        return found
+        """Whether the polar angle of a profile without a cusp runs one way."""
+        return self.least_support > self.roller_radius
 
     def table(self, name: str, samples: int | None = None) -> Table:
         """The cam as a table over the cam angle, as many rows as asked for."""

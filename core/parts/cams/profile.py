@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import short
-from gearlink.core.numerics.arrays import BLOCK, Points, Reals
+from gearlink.core.numerics.arrays import BLOCK, Mask, Points, Reals
 from gearlink.core.parts.cams.codes import LARGER
 
 
@@ -179,6 +179,29 @@ def normals(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Points:
     return np.asarray(1j * sense * d1 / _speed(cam_angle, path, d1))
 
 
+def support(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Reals:
+    """Distance of the cam axis from the tangent of the pitch curve, positive where it lies on the cam's side of it.
+
+    h = -eps Im(conj(B) D1)/|D1|
+
+    Parameters
+        cam_angle, path, sense : as of pitch_points
+    Returns
+        h : (N,) array [mm] - of the profile h - r_g: where that is positive all over a profile without a cusp, the
+            polar angle runs one way
+    Raises
+        NoSolution - the pitch curve stands still (D1 = 0)
+    Example
+        >>> support([0.0], translating([90.0], [0.0]), sense=1)
+        array([90.])
+
+    Source
+        own derivation: Im(conj(C) C') = (1 - r_g kappa) (Im(conj(B) D1) + eps r_g |D1|)
+    """
+    d1, at = _pitch_rate(path, sense), path.position
+    return np.asarray(sense * (at.imag * d1.real - at.real * d1.imag) / _speed(cam_angle, path, d1))
+
+
 def _contact(path: RollerPath, d1: Points, reach: Reals) -> Points:
     # B - i reach D1
     contact = np.empty(np.broadcast_shapes(d1.shape, reach.shape), dtype=np.complex128)
@@ -219,8 +242,21 @@ def _lever(path: RollerPath, d1: Points) -> Points:
     return lever
 
 
+def stands(path: RollerPath, *, sense: int) -> Mask:
+    """Whether the roller keeps off the relative pole all along a path; of many paths, one by one.
+
+    Source
+        own derivation: Re(q/u) of `pressure_angle` keeps its sign
+    """
+    return _keeps_sign(_lever(path, _pitch_rate(path, sense)).real)
+
+
+def _keeps_sign(across: Reals) -> Mask:
+    return np.asarray((across.min(axis=-1) > 0.0) | (across.max(axis=-1) < 0.0))
+
+
 def _check_lever(cam_angle: ArrayLike, across: Reals) -> None:
-    if across.size and not (across.min() > 0.0 or across.max() < 0.0):
+    if across.size and not _keeps_sign(across).all():
         place = _angle_at(cam_angle, across.shape, int(np.argmin(np.abs(across))))
         raise NoSolution(
             f"pressure angle: 90 deg at cam angle {short(place)} deg, where the roller passes the relative pole",
