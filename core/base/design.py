@@ -348,13 +348,16 @@ class Design:
     at_once: ClassVar[int] = 16
     """Designs that are computed one after the other before anything is said of them."""
 
+    alone: ClassVar[frozenset[str]] = frozenset()
+    """Checks that judge nothing which is found for many designs together."""
+
     @classmethod
     def find_together(cls, _designs: Sequence[Any], _names: Sequence[str], /) -> None:
         """Let designs of this class keep what is found for all of them at once; of most kinds nothing is.
 
         Parameters
             designs : made, nothing of them asked for yet
-            names : quantities that will be asked for, beside what the checks need
+            names : of quantities and checks that will be asked for
         """
 
     def varied(self, spec: Any) -> Design:

@@ -5,8 +5,9 @@ A search whose function gives a row for each design gives an extreme whose value
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import fields, is_dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -37,9 +38,67 @@ def column(values: Sequence[Any]) -> Any:
     first = values[0]
     if all(value == first for value in values):
         return first
-    if not all(isinstance(value, float | int) for value in values):
+    if not all(isinstance(value, float | int | complex) for value in values):
         raise Unlike
-    return np.array(values, dtype=float)[:, None]
+    found = np.array(values)[:, None]
+    return found if found.dtype.kind == "c" else found.astype(float)
+
+
+Part = TypeVar("Part")
+
+
+def stacked(parts: Sequence[Part], **known: Any) -> Part:
+    """One dataclass with a column at each number by which some of them differ; nothing of it is checked.
+
+    Parameters
+        parts : of one dataclass, whose fields are numbers, dataclasses, tuples of these, or alike
+        known : fields that are known already
+    Raises
+        Unlike
+    Example
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
+        >>> stacked([FourBar(18.0, 50.0, 100.0, 121.0), FourBar(19.0, 50.0, 100.0, 121.0)]).crank.tolist()
+        [[18.0], [19.0]]
+    """
+    made = object.__new__(type(parts[0]))
+    for field in fields(made):  # type: ignore[arg-type]
+        name = field.name
+        value = known[name] if name in known else _joined([getattr(part, name) for part in parts])
+        object.__setattr__(made, name, value)
+    return made
+
+
+def _joined(values: Sequence[Any]) -> Any:
+    first = values[0]
+    if all(value is first or value == first for value in values):
+        return first
+    if any(type(value) is not type(first) for value in values):
+        raise Unlike
+    if is_dataclass(first):
+        return stacked(values)
+    if not isinstance(first, tuple):
+        return column(values)
+    if any(len(value) != len(first) for value in values):
+        raise Unlike
+    found = [_joined(each) for each in zip(*values, strict=True)]
+    return type(first)(*found) if hasattr(first, "_fields") else tuple(found)
+
+
+def hand_in(many: Any, owners: Sequence[Any], *names: str) -> None:
+    """Let one for all of the owners keep columns of results that each has of its own.
+
+    Raises
+        Unlike
+    """
+    keep(many, **{name: _joined([getattr(owner, name) for owner in owners]) for name in names})
+
+
+def in_groups(designs: Sequence[Part], key: Callable[[Part], Hashable]) -> list[list[Part]]:
+    """Designs that are alike in a key, in their order."""
+    found: dict[Hashable, list[Part]] = {}
+    for design in designs:
+        found.setdefault(key(design), []).append(design)
+    return list(found.values())
 
 
 def together(specs: Sequence[Spec], alike: Sequence[str] = ()) -> Spec:
@@ -87,7 +146,7 @@ def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
     Parameters
         found : of the class of the owners, with columns for their numbers
         owners : whose results are asked for later
-        names : of kept results - numbers, None, or tuples and lists of these
+        names : of kept results - numbers, None, or tuples, lists and dicts of these
     """
     for name in names:
         value = getattr(found, name)
@@ -98,6 +157,8 @@ def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
 def _of_row(value: Any, row: int) -> Any:
     if isinstance(value, np.ndarray):
         return value.reshape(-1)[row].item()
+    if isinstance(value, dict):
+        return {name: _of_row(part, row) for name, part in value.items()}
     if isinstance(value, tuple | list):
         parts = [_of_row(part, row) for part in value]
         return type(value)(*parts) if hasattr(value, "_fields") else type(value)(parts)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, partial
@@ -16,7 +16,7 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared, up
 from gearlink.core.base.report import NO_NUMBER, Check, Remedy, Rule, Shown, Status, Table, safely_above, safely_below
-from gearlink.core.base.results import cached_property
+from gearlink.core.base.results import cached_property, kept
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.swing_gripper.codes import (
     CONDITIONING,
@@ -26,7 +26,7 @@ from gearlink.core.machines.swing_gripper.codes import (
     PHASE_ALLOTMENT,
     STOP_SETTLING,
 )
-from gearlink.core.machines.swing_gripper.motion import Motion, require
+from gearlink.core.machines.swing_gripper.motion import Motion, Timing, require
 from gearlink.core.numerics.arrays import Points, Reals, product, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
@@ -45,7 +45,7 @@ from gearlink.core.parts.cams.checks import (
     undercut_checks,
 )
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, LARGER, LIFT_OFF, PRESSURE_ANGLE, VELOCITY_STEP
-from gearlink.core.parts.cams.disc_cam import DiscCam, largest_pressure_angles
+from gearlink.core.parts.cams.disc_cam import DiscCam, largest_pressure_angles, seek_together
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
 from gearlink.core.parts.cams.laws import Law, law
 from gearlink.core.parts.cams.profile import RollerPath, oscillating
@@ -55,7 +55,7 @@ from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.studies.clearance import beside_line, beside_turning_arm, beside_turning_pin
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.forces import LeverSpring, Stop
+    from gearlink.core.machines.swing_gripper.forces import LeverSpring, RockerInertia, Stop
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.machines.swing_gripper.spec import (
@@ -670,6 +670,29 @@ _WINDOW = 6.0
 _ROWS = 41
 
 
+@dataclass(frozen=True)
+class RollerCourse:
+    """The course of a roller on the cam rocker, over the angle of its cam.
+
+    Parameters
+        linkage : GripperLinkage
+        pivot : complex [mm] - of the cam rocker, seen from the cam axis
+        arm : float [mm]
+        ahead : float [rad] - of the arm on AC
+    """
+
+    linkage: GripperLinkage
+    pivot: complex
+    arm: float
+    ahead: float
+
+    def __call__(self, theta: Reals, order: int) -> RollerPath:
+        """The path of a disc cam at cam angles [rad]."""
+        motion = self.linkage.kept_motion(theta, order)
+        second = motion.input_acceleration if order > 1 else 0.0
+        return oscillating(self.pivot, self.arm, motion.input_angle + self.ahead, motion.input_velocity, second)
+
+
 class GripperCams(DiscCams):
     """The cams that drive the gripper and bring it back; those that advise say where else they could be."""
 
@@ -763,14 +786,7 @@ class GripperCams(DiscCams):
         return (self.main_cam,) if self.return_cam is None else (self.main_cam, self.return_cam)
 
     def _disc_cam(self, name: str, roller: Roller, from_input: float) -> DiscCam:
-
-        pivot, shift = -self.from_pivot, math.radians(from_input)
-
-        def path(theta: Reals, order: int) -> RollerPath:
-            motion = self.motion.linkage.kept_motion(theta, order)
-            second = motion.input_acceleration if order > 1 else 0.0
-            return oscillating(pivot, roller.arm, motion.input_angle + shift, motion.input_velocity, second)
-
+        path = RollerCourse(self.motion.linkage, -self.from_pivot, roller.arm, math.radians(from_input))
         joints = tuple(math.radians(start) for start in self.motion.law.starts[:-1])
         return DiscCam(name, path, self.section.sense, roller.radius, joints)
 
@@ -864,6 +880,10 @@ class Closure:
     def __init__(self, spec: SwingGripperSpec, motion: Motion, cams: GripperCams) -> None:
         self.spec, self.motion, self.cams = spec, motion, cams
 
+    def varied(self) -> Closure:
+        """The same, of which nothing is known yet."""
+        return Closure(self.spec, self.motion, self.cams)
+
     @cached_property
     def refusal(self) -> NoSolution | None:
         """Why nothing keeps both rollers on their cams at any speed; None where something may. The cams must stand."""
@@ -917,8 +937,8 @@ class Closure:
     @cached_property
     def lift_sense(self) -> int:
         """Sign of the cam rocker's turn by which the main cam lifts its roller."""
-        sense = self._lift_sense(self.cams.main_cam)
-        if self.cams.return_cam is not None and self._lift_sense(self.cams.return_cam) == sense:
+        sense, *back = (1 if each > 0.0 else -1 for each in self.outward)
+        if sense in back:
             arm = math.degrees(math.remainder(cmath.phase(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
             way = "less" if arm > 0.0 else "more"
             raise NoSolution(
@@ -928,31 +948,26 @@ class Closure:
             )
         return sense
 
-    def _lift_sense(self, cam: DiscCam) -> int:
-        path = cam.path(np.array([0.0]), 1)
-        tangent = path.first - 1j * cam.sense * path.position
-        outward = 1j * cam.sense * tangent
-        return 1 if float(np.real(np.conj(outward) * path.direction)[0]) > 0.0 else -1
+    @cached_property
+    def outward(self) -> tuple[float, ...]:
+        """At the pick-up position, how far each roller moves away from its cam as the cam rocker turns."""
+        from gearlink.core.machines.swing_gripper.forces import outward_of
 
-    def inertia_torques(self, degrees: Any) -> tuple[Any, Any]:
-        """Inertia torques of the cam rocker with linkage and of the return rocker [N m] at cylinder angles [deg]."""
-        from gearlink.core.machines.swing_gripper.forces import Masses, inertia_torque
+        return tuple(outward_of(cam) for cam in self.cams.discs)
+
+    @cached_property
+    def inertia(self) -> RockerInertia:
+        """What the motion takes of torque."""
+        from gearlink.core.machines.swing_gripper.forces import Masses, RockerInertia
 
         masses = Masses.of(require(self.spec, "inertia", "input, output, coupler, coupler_mass, return_rocker"))
-        motion = self.motion.linkage.motion(degrees, 2)
-        main = inertia_torque(self.motion.linkage, motion, masses, self.motion.shaft_speed)
-        return main, masses.return_rocker * motion.input_acceleration * self.motion.shaft_speed**2
+        return RockerInertia(self.motion.linkage, masses, self.motion.shaft_speed)
 
     @cached_property
     def worst_unloading(self) -> tuple[Extreme, ...]:
         """Largest torque that lifts each roller [N m], and the cylinder angle [deg] of it."""
-        torques, sense = kept_last(self.inertia_torques), self.lift_sense
-
-        def lifting(roller: int, theta: Reals) -> Reals:
-            return np.asarray((sense if roller else -sense) * torques(theta)[roller])
-
-        wanted = [(partial(lifting, roller), True) for roller in range(len(self.cams.discs))]
-        return tuple(extremes_over(wanted, 0.0, 360.0, joints=self.motion.law.starts[1:-1], samples=720))
+        sense = self.lift_sense
+        return self.inertia.greatest([-sense, sense][: len(self.cams.discs)])
 
     @cached_property
     def lift_off_speed(self) -> float | None:
@@ -1069,11 +1084,12 @@ _EXTREMES = (
 )
 
 
-_NOT_OF_MOTION = {"name", "cam", "size"}
 _OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius", *_CAM_CHECKS}
+_OF_LAW = {"handover_speed", "handover_mismatch", "handover_center", "total_swing", *_PHASES}
 
 
 _OF_FINGERS = ("finger-release", "pressure-angle", "cam-undercut")
+_OF_FINGER_CAM = ("fingers", "release", "swing_sense")
 
 
 class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
@@ -1168,7 +1184,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     def fingers(self) -> FingerCam:
         """What opens the fingers."""
 
-        return FingerCam(self.spec, self.motion)
+        return FingerCam(self.spec, self.motion.timing)
 
     @property
     def discs(self) -> tuple[DiscCam, ...]:
@@ -1218,7 +1234,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     def law_phase(self, path: str, /) -> Phase:
         """The phase of a law."""
-        return self.motion.phase(path.removeprefix("laws."))
+        return self.motion.timing.phase(path.removeprefix("laws."))
 
     # Quantities
 
@@ -1264,18 +1280,36 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
             "finger_lift",
         )
 
+    at_once = 64
+    alone = frozenset(("handover", "velocity-step", "acceleration-step", "jerk-step", "phase-allotment", *LAW_CHECKS))
+
+    @classmethod
+    def find_together(cls, designs: Sequence[SwingGripper], names: Sequence[str]) -> None:
+        """Linkages, cams and torques are sought together."""
+        from gearlink.core.machines.swing_gripper.together import find_together
+
+        asked = frozenset(name.partition("[")[0] for name in names)
+        if not asked <= _OF_LAW:
+            find_together(designs, asked)
+
     def varied(self, spec: SwingGripperSpec) -> SwingGripper:
-        """The design of another file; law and linkage are kept where it differs in the cams alone, else the law."""
+        """The design of another file, with the same law or motion where the file gives that."""
         made = type(self)(spec)
-        same = all(name in _NOT_OF_MOTION or value == getattr(self.spec, name) for name, value in spec)
-        made.motion = self.motion if same else self.motion.varied(spec)
+        made.motion = self.motion.varied(spec)
+        same_law = made.motion.timing is self.motion.timing
+        if same_law and all(getattr(spec, key) == getattr(self.spec, key) for key in _OF_FINGER_CAM):
+            made.fingers = self.fingers
         return made
 
     def prepare(self, quantities: Iterable[str]) -> None:
         """Seek the extremes of the cams together, where several quantities or checks ask for them."""
-        if len({*quantities} & _OF_CAMS) > 1:
+        asked = {*quantities}
+        if len(asked & _OF_CAMS) > 1:
             with suppress(GearlinkError):  # it is said where the quantity is asked for
                 self.cams.seek()
+        if self.spec.fingers is not None and asked.issuperset(_OF_FINGERS):
+            with suppress(GearlinkError):
+                self.fingers.seek()
 
     def raw(self, name: str) -> Any:
         """The value of a quantity; a point as its two coordinates; None of a stop that the file has not."""
@@ -1319,7 +1353,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         from gearlink.core.machines.swing_gripper.forces import contact_torques
 
         degrees, spring = turn_degrees(samples), self.closure.closing_torque
-        main, back = self.closure.inertia_torques(degrees)
+        main, back = self.closure.inertia.torques(degrees)
         torques = contact_torques(spring, main, back, self.closure.lift_sense)
         columns: dict[str, tuple[Any, str]] = {"theta": (degrees, "deg"), "inertia_torque": (main, "N m")}
         rollers = (self.cams.section.roller, self.cams.section.return_roller)
@@ -1622,13 +1656,13 @@ class FingerCam:
 
     Parameters
         spec : SwingGripperSpec - with fingers
-        motion : Motion
+        timing : Timing
     Source
         swing-gripper paper 1 lets the fingers open at the handover; the cam: own derivation
     """
 
-    def __init__(self, spec: SwingGripperSpec, motion: Motion) -> None:
-        self.spec, self.motion = spec, motion
+    def __init__(self, spec: SwingGripperSpec, timing: Timing) -> None:
+        self.spec, self.timing = spec, timing
 
     @property
     def section(self) -> FingerSection:
@@ -1681,7 +1715,7 @@ class FingerCam:
 
     def cam_angle(self, degrees: Reals) -> tuple[Reals, Reals, Reals]:
         """Turn of the cam seen from the arm, theta + beta in the cylinder's sense, and derivatives by theta [rad]."""
-        beta, first, second = self.motion.law.evaluate(degrees, 2)
+        beta, first, second = self.timing.law.evaluate(degrees, 2)
         return np.radians(degrees) + beta, 1.0 + first, second
 
     @cached_property
@@ -1724,14 +1758,20 @@ class FingerCam:
             speed = first / rate
             return oscillating(pivot, section.lever, angle + eta, speed, (second - speed * bend) / rate**2)
 
-        joints = np.array(sorted({*self.motion.law.starts[:-1], *(each % 360.0 for each in self._ends)}))
+        joints = np.array(sorted({*self.timing.law.starts[:-1], *(each % 360.0 for each in self._ends)}))
         places = tuple(self.cam_angle(joints)[0].tolist())
         return DiscCam("finger cam", path, self._sense, section.roller_radius, places, "fingers")
+
+    def seek(self) -> None:
+        """Seek what the checks of the cam need, unless some is known."""
+        names = ("max_pressure_angle", "most_convex", "least_support")
+        if not kept(self.cam, *names):
+            seek_together((self.cam,), names)
 
     @property
     def release_degrees(self) -> float:
         """Cylinder angle at which the fingers must have let go [deg]: the end of the release window."""
-        return self.motion.handover + (self.spec.release.window if self.spec.release is not None else 0.0)
+        return self.timing.handover + (self.spec.release.window if self.spec.release is not None else 0.0)
 
     @cached_property
     def opened(self) -> float:

@@ -8,8 +8,9 @@ N m.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,12 +20,15 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.together import kept_last
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.design import Closure, GripperCams
     from gearlink.core.machines.swing_gripper.motion import Motion
     from gearlink.core.machines.swing_gripper.spec import ArmStop, Inertia, SwingGripperSpec
+    from gearlink.core.parts.cams.disc_cam import DiscCam
 
 
 _M2 = 1e-6  # mm^2 in m^2
@@ -63,9 +67,8 @@ def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masse
     Source
         own derivation: principle of virtual work
     """
-    ratios = linkage.ratios(motion.beta)
-    k4 = 1.0 / ratios.crank_velocity
-    k3 = ratios.coupler_velocity / ratios.crank_velocity
+    k4 = 1.0 / motion.input_ratio
+    k3 = motion.coupler_ratio / motion.input_ratio
     square = shaft_speed * shaft_speed
     e1, e3 = np.exp(1j * motion.input_angle), np.exp(1j * motion.coupler_angle)
     arm, half = linkage.input, 0.5 * linkage.coupler
@@ -80,6 +83,41 @@ def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masse
     )
     torque: Reals = square * (turning + translation)
     return torque
+
+
+@dataclass(frozen=True)
+class RockerInertia:
+    """Inertia torques of both rockers over the turn.
+
+    Parameters
+        linkage : GripperLinkage
+        masses : Masses
+        shaft_speed : float [rad/s]
+    """
+
+    linkage: GripperLinkage
+    masses: Masses
+    shaft_speed: float
+
+    def torques(self, degrees: Any) -> tuple[Any, Any]:
+        """Of the cam rocker with linkage and of the return rocker [N m] at cylinder angles [deg]."""
+        motion = self.linkage.motion(degrees, 2)
+        main = inertia_torque(self.linkage, motion, self.masses, self.shaft_speed)
+        return main, self.masses.return_rocker * motion.input_acceleration * self.shaft_speed**2
+
+    def greatest(self, senses: Sequence[float]) -> tuple[Extreme, ...]:
+        """Maximum torque of each rocker in a sense [N m], and the cylinder angle [deg] of it."""
+        torques = kept_last(self.torques)
+        wanted = [(lambda theta, i=i: np.asarray(senses[i] * torques(theta)[i]), True) for i in range(len(senses))]
+        return tuple(extremes_over(wanted, 0.0, 360.0, joints=self.linkage.law.starts[1:-1], samples=720))
+
+
+def outward_of(cam: DiscCam) -> float:
+    """How far a roller moves away from its cam at the pick-up position as its rocker turns; many cams, a column."""
+    path = cam.path(np.array([0.0]), 1)
+    normal = 1j * cam.sense * (path.first - 1j * cam.sense * path.position)
+    found = np.real(np.conj(normal) * path.direction)
+    return found if found.ndim > 1 else float(found[0])  # type: ignore[return-value]
 
 
 def contact_torques(spring: float, inertia: Reals, return_inertia: Reals, lift_sense: int) -> tuple[Reals, Reals]:
@@ -205,8 +243,8 @@ class Stop:
     @cached_property
     def _ratios(self) -> tuple[float, float]:
         """Speeds of cam rocker and coupler over that of the arm at the bite, signed."""
-        state = self.motion.linkage.ratios(np.zeros(1))
-        return float(state.crank_velocity[0]), float(state.coupler_velocity[0])
+        bite = self.motion.linkage.motion(np.zeros(1), 1)
+        return float(bite.input_ratio[0]), float(bite.coupler_ratio[0])
 
     @cached_property
     def force(self) -> float:
@@ -247,10 +285,10 @@ class Stop:
         return bracketed_root(self._off, 0.0, self.motion.law.starts[1])
 
     def _off(self, degrees: float) -> float:
-        return float(self.motion.law.evaluate(degrees, 0)[0][0]) - self.angle
+        return self.motion.law.swing(degrees) - self.angle
 
     def _require_before_the_handover(self) -> None:
-        reached = float(self.motion.law.evaluate(self.motion.law.starts[1], 0)[0][0])
+        reached = self.motion.law.swing(self.motion.law.starts[1])
         if self.angle < reached:
             return
         most = self.section.clearance * reached / self.angle

@@ -8,7 +8,8 @@ follows from w and the phase lengths.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -22,7 +23,8 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.laws import Law
 
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
-_NEAR_DWELL = 5
+_FAR_DWELL, _NEAR_DWELL = 3, 5
+_RADIAN = math.pi / 180.0
 _HALF_DEGREES = np.arange(0.0, 360.0, 0.5)
 _HALF_DEGREES.flags.writeable = False
 _MOST_KEPT = 16
@@ -68,7 +70,7 @@ def balanced(rest: tuple[float, float, float], ratio: float, laws: tuple[Law, La
 
 @dataclass(frozen=True)
 class SixPhaseLaw:
-    """Swing angle over the turn.
+    """Swing angle over the turn; of many laws, whose numbers are columns, a row for each.
 
     Parameters
         lengths : six floats [deg] - phase lengths that add up to 360; degrees, so that joints on whole degrees
@@ -103,7 +105,7 @@ class SixPhaseLaw:
     @cached_property
     def _heights(self) -> tuple[float, float, float]:
         """Swing at the ends of accelerate, constant and decelerate [rad]."""
-        spans = [math.radians(length) for length in self.lengths]
+        spans = [length * _RADIAN for length in self.lengths]
         first = self.speed * self.accelerate.kappa * spans[0]
         second = first + self.speed * spans[1]
         return first, second, second + self.speed * self.decelerate.kappa * spans[2]
@@ -126,18 +128,39 @@ class SixPhaseLaw:
     def reaches(self, swing: float) -> float:
         """Cylinder angle [deg] at which the working stroke has the swing [rad], from 0 to the total swing."""
         ends = (-swing, self.total_swing - swing)
-        return bracketed_root(
-            lambda degrees: float(self.evaluate(degrees, 0)[0][0]) - swing, 0.0, self.starts[3], ends=ends
-        )
+        return bracketed_root(lambda degrees: self.swing(degrees) - swing, 0.0, self.starts[_FAR_DWELL], ends=ends)
+
+    def swing(self, degrees: float) -> float:
+        """Swing [rad] at one cylinder angle: that of `evaluate`, without an array."""
+        theta = math.fmod(degrees, 360.0)
+        index = bisect_right(self.starts, theta) - 1
+        if index in (_FAR_DWELL, _NEAR_DWELL):
+            return self.total_swing if index == _FAR_DWELL else 0.0
+        u = (theta - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
+        return float(self.in_phase(index, u, 0)[0])
 
     def phase(self, degrees: Any) -> NDArray[np.intp]:
         """Index of the phase at angles in degrees; a joint belongs to the phase that starts there."""
-        index: NDArray[np.intp] = self._edges.searchsorted(np.fmod(degrees, 360.0), side="right") - 1
+        return self._phase_of(np.fmod(degrees, 360.0))
+
+    def _phase_of(self, theta: Any) -> NDArray[np.intp]:
+        """The same at angles below 360; of many laws with a row of angles for each."""
+        index: NDArray[np.intp]
+        if self._many:
+            index = np.add.reduce([theta >= start for start in self.starts[1:-1]], axis=0, dtype=np.intp)
+        else:
+            index = self._edges.searchsorted(theta, side="right") - 1
         return index
 
     @cached_property
     def _edges(self) -> Reals:
         return np.array(self.starts)
+
+    @cached_property
+    def _many(self) -> int:
+        """How many laws it is whose numbers are columns; 0 of one."""
+        numbers: tuple[Any, ...] = (self.speed, *self.lengths)
+        return max((len(each) for each in numbers if isinstance(each, np.ndarray)), default=0)
 
     def evaluate(self, degrees: Any, order: int = 2) -> tuple[Reals, ...]:
         """Swing and its derivatives by theta.
@@ -177,22 +200,33 @@ class SixPhaseLaw:
 
     def _evaluate(self, degrees: Any, order: int) -> tuple[Reals, ...]:
         given = np.atleast_1d(np.asarray(degrees, dtype=np.float64))
-        theta = np.fmod(given.ravel(), 360.0)
-        phase = self._edges.searchsorted(theta, side="right") - 1
-        out = np.zeros((order + 1, theta.size))
+        if self._many:
+            given = np.broadcast_to(given, (self._many, given.shape[-1]))
+        theta = np.fmod(given, 360.0)
+        phase = self._phase_of(theta)
+        out = np.zeros((order + 1, *theta.shape))
         for index in range(_NEAR_DWELL):  # in which it rests at zero
-            rows = (phase == index).nonzero()[0]
-            if rows.size:
-                local = (theta[rows] - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
-                for target, values in zip(out, self.in_phase(index, local, order), strict=True):
-                    target[rows] = values
-        return tuple(out.reshape(order + 1, *given.shape))
+            places = (phase == index).nonzero()
+            if places[0].size:
+                start, end = self._at(places[0], self.starts[index], self.starts[index + 1])
+                values = self.in_phase(index, (theta[places] - start) / (end - start), order, places[0])
+                for target, value in zip(out, values, strict=True):
+                    target[places] = value
+        return tuple(out)
 
-    def in_phase(self, index: int, u: Reals, order: int) -> tuple[Reals, ...]:
-        """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included)."""
-        span = math.radians(self.starts[index + 1] - self.starts[index])
+    def _at(self, rows: NDArray[np.intp] | None, *numbers: Any) -> Iterator[Any]:
+        """Numbers of the laws of some rows."""
+        for each in numbers:
+            yield each[rows, 0] if isinstance(each, np.ndarray) else each
+
+    def in_phase(self, index: int, u: Any, order: int, rows: NDArray[np.intp] | None = None) -> tuple[Any, ...]:
+        """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included), an array.
+
+        The swing alone in a phase that moves is known of a number too. Of many laws, `rows` tells whose each is.
+        """
         first, _, top = self._heights
-        w = self.speed
+        span = (self.starts[index + 1] - self.starts[index]) * _RADIAN
+        span, first, top, w = self._at(rows, span, first, top, self.speed)
         if index == 0:
             return tuple(w * span * s / span**n for n, s in enumerate(self.accelerate.evaluate(u, order)))
         if index == 1:

@@ -21,9 +21,10 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import Extreme, extremes_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over, least_of
 from gearlink.core.numerics.together import kept_last
-from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarInverseState
+from gearlink.core.parts.linkages.fourbar.loop import Reading, in_motion
+from gearlink.core.parts.linkages.fourbar.position import FourBar, inverse_reading
 from gearlink.core.parts.linkages.fourbar.position import solve_inverse as solve_one_inverse
 from gearlink.core.parts.linkages.fourbar.sweep import (
     dead_point_distance,
@@ -38,7 +39,8 @@ _MOST_KEPT = 8  # as many arrays as the grids of a design's searches, with room
 class GripperMotion:
     """Angles [rad] and derivatives by theta at the angles asked for; arrays of one shape.
 
-    `input` is AC, `coupler` C->D, `output` E->D. Derivatives beyond the order asked for are empty.
+    `input` is AC, `coupler` C->D, `output` E->D. Derivatives beyond the order asked for are empty. `input_ratio` and
+    `coupler_ratio` are derivatives by the output's angle, geometry that there is in the dwells too; of order 0 empty.
     """
 
     theta: Reals
@@ -55,11 +57,13 @@ class GripperMotion:
     input_jerk: Reals
     coupler_jerk: Reals
     output_jerk: Reals
+    input_ratio: Reals
+    coupler_ratio: Reals
 
 
 @dataclass(frozen=True)
 class GripperLinkage:
-    """Four-bar A-C-D-E driven at ED by the law of the gripper.
+    """Four-bar A-C-D-E driven at ED by the law of the gripper; of many, whose numbers are columns, a row for each.
 
     Parameters
         law : SixPhaseLaw
@@ -87,6 +91,16 @@ class GripperLinkage:
         """The linkage in the frame of its pivots, read from A to E."""
         frame = abs(self.output_pivot - self.input_pivot)
         return FourBar(self.input, self.coupler, self.output, frame, self.assembly)
+
+    @cached_property
+    def inverse(self) -> FourBar:
+        """The linkage read from E to A."""
+        return self.four_bar.inverse()
+
+    @cached_property
+    def reading(self) -> Reading:
+        """Constants of its loop with ED driving."""
+        return inverse_reading(self.four_bar)
 
     @cached_property
     def frame_direction(self) -> float:
@@ -120,7 +134,7 @@ class GripperLinkage:
                 self._kept[place] = last
         return last[2]
 
-    @property
+    @cached_property
     def output_shift(self) -> float:
         """Whole turns that bring the direction of ED at the pick-up position into the first one, (-pi, pi]."""
         return _into_first_turn(self.output_direction)
@@ -146,36 +160,15 @@ class GripperLinkage:
         sense = self.swing_sense
         output = self.output_direction + sense * beta[0]
         nothing = np.empty(0)
-        velocity, acceleration, jerk = (sense * beta[n] if n <= order else nothing for n in (1, 2, 3))
+        rates = [sense * beta[n] if n <= order else nothing for n in (1, 2, 3)]
         with at_key("links"):
-            state = solve_inverse(
-                self.four_bar,
-                output - self.frame_direction,
-                order,
-                velocity=velocity,
-                acceleration=acceleration if order > 1 else 0.0,
-                jerk=jerk if order > 2 else 0.0,
-            )
-        return GripperMotion(
-            theta=np.radians(degrees),
-            beta=beta[0],
-            input_angle=state.crank_angle + self._shifts[0],
-            coupler_angle=state.coupler_angle + self._shifts[1],
-            output_angle=output + self.output_shift,
-            input_velocity=state.crank_velocity,
-            coupler_velocity=state.coupler_velocity,
-            output_velocity=velocity,
-            input_acceleration=state.crank_acceleration,
-            coupler_acceleration=state.coupler_acceleration,
-            output_acceleration=acceleration,
-            input_jerk=state.crank_jerk,
-            coupler_jerk=state.coupler_jerk,
-            output_jerk=jerk,
-        )
-
-    def ratios(self, beta: Reals) -> FourBarInverseState[Reals]:
-        """Speed ratios w_input/w_output and w_coupler/w_output as geometry, defined in the dwells too."""
-        return solve_inverse(self.four_bar, self.local_output(beta), 1)
+            first, second, _, *by_output = solve_inverse(self.reading, output - self.frame_direction, order)
+        links = in_motion(by_output[: 2 * order], *rates) if order else []
+        links += [nothing] * (6 - len(links))
+        each = [rate for i in range(3) for rate in (*links[2 * i : 2 * i + 2], rates[i])]
+        ratios = by_output[:2] if order else (nothing, nothing)
+        angles = first + self._shifts[0], second + self._shifts[1], output + self.output_shift
+        return GripperMotion(np.radians(degrees), beta[0], *angles, *each, *ratios)
 
     @cached_property
     def least_transmission(self) -> tuple[Extreme, Extreme]:
@@ -186,18 +179,31 @@ class GripperLinkage:
         """
 
         both = kept_last(lambda swing: self.transmission(self.local_output(swing)))
-        ends = np.array([0.0, self.law.total_swing])
+        total = self.law.total_swing
         wanted = [(lambda swing, i=i: both(swing)[i], False) for i in (0, 1)]
-        inside = extremes_over(wanted, 0.0, self.law.total_swing, samples=180)
-        d, c = (
-            min(least, *map(Extreme, values.tolist(), ends.tolist()))
-            for least, values in zip(inside, both(ends), strict=True)
-        )
+        inside = extremes_over(wanted, 0.0, total, samples=180)
+        ends = np.concatenate(np.broadcast_arrays(*(np.reshape(end, (-1, 1)) for end in (0.0, total))), axis=1)
+        d, c = (least_of(least, values, ends) for least, values in zip(inside, both(ends), strict=True))
         return d, c
+
+    @cached_property
+    def surely_reaches(self) -> bool:
+        """Whether |AD| stays within the reach of rocker and coupler over the whole swing, by more than rounding.
+
+        |AD| has its extremes at the ends of the swing and where ED lies in line with the frame.
+        """
+        start = self.output_direction - self.frame_direction
+        low, high = sorted((start, start + self.swing_sense * self.law.total_swing))
+        between = [k * math.pi for k in range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)]
+        frame = self.four_bar.frame
+        reach = [abs(frame + cmath.rect(self.output, direction)) for direction in (low, high, *between)]
+        folded, stretched = abs(self.input - self.coupler), self.input + self.coupler
+        rounding = _ROUNDING * (frame + self.output + stretched)
+        return folded + rounding < min(reach) and max(reach) < stretched - rounding
 
     def transmission(self, direction: Reals) -> tuple[Reals, Reals]:
         """Angles between CD and ED and between AC and CD, folded [rad], at directions of ED from the frame line."""
-        state = solve_inverse(self.four_bar, direction)
+        state = solve_inverse(self.reading, direction)
         return _folded(direction - state.coupler_angle), _folded(state.crank_angle - state.coupler_angle)
 
     def local_output(self, beta: Reals) -> Reals:
@@ -221,6 +227,7 @@ def _into_first_turn(angle: float) -> float:
 DEAD_POINT = 1e-3
 _LEAST_AIM = math.radians(10.0)
 _STEP = math.radians(0.1)
+_ROUNDING = 1e-12
 _JOINTS = (("D", "coupler", "output"), ("C", "input", "coupler"))
 
 
@@ -237,9 +244,9 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
     Source
         own derivation; a sign change of sin(th4 - th3) passes mu_D = 0
     """
-    swing = np.linspace(0.0, linkage.law.total_swing, 1801)
-    reach = _reach(linkage, linkage.local_output(swing))
     low, high = abs(linkage.input - linkage.coupler), linkage.input + linkage.coupler
+    swing = np.linspace(0.0, linkage.law.total_swing, 1801) if not linkage.surely_reaches else np.empty(0)
+    reach = _reach(linkage, linkage.local_output(swing))
     wrong = (reach > high) | (reach < low)
     if wrong.any():
         first = int(np.argmax(wrong))
@@ -368,7 +375,7 @@ def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
     driving, coupler, rocker = _inverse_angles(linkage, motion)
     bite = linkage.output_direction + linkage.output_shift - linkage.frame_direction + math.pi
     swing = (bite, bite + linkage.swing_sense * linkage.law.total_swing)
-    newton = solve_by_newton(linkage.four_bar.inverse(), driving, swing)
+    newton = solve_by_newton(linkage.inverse, driving, swing)
     return TwoWays(
         deviation=np.maximum(_apart(newton.coupler_angle, coupler), _apart(newton.rocker_angle, rocker)),
         iterations=newton.iterations,
@@ -387,7 +394,7 @@ def closed_form_error(linkage: GripperLinkage, motion: GripperMotion) -> Reals:
     Returns
         error : (N,) array [rad]
     """
-    inverse, angles = linkage.four_bar.inverse(), _inverse_angles(linkage, motion)
+    inverse, angles = linkage.inverse, _inverse_angles(linkage, motion)
     r = np.array([_opening(inverse, *row) for row in zip(*(x.tolist() for x in angles), strict=True)])
     _, coupler, rocker = angles
     sine = np.abs(np.sin(coupler - rocker))

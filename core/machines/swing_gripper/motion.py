@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.report import safely_above, safely_below
-from gearlink.core.base.results import cached_property, keep, kept
+from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike, within
 
 if TYPE_CHECKING:
@@ -22,21 +23,11 @@ if TYPE_CHECKING:
 
 _STATED = 1e-6
 _FEW = 24
-_TURN = 2.0 * math.pi
-_OF_LAW = ("shaft_speed", "phases", "phase_angles", "_drive", "law")
-_NOT_OF_LAW = {
-    "name",
-    "links",
-    "pivots",
-    "output_direction",
-    "swing_sense",
-    "assembly",
-    "cam",
-    "size",
-    "spring",
-    "inertia",
-}
-"""Keys of the file that the law does not know."""
+_TURN, _RADIAN = 2.0 * math.pi, math.pi / 180.0
+_OF_LAW = ("speed", "cylinder", "arm", "phases", "handover", "total_swing", "laws", "loads")
+"""Keys of the file that the law knows."""
+_OF_LINKAGE = ("links", "pivots", "output_direction", "swing_sense", "assembly", "limits")
+"""Those that the linkage knows beside the law's."""
 
 
 @cache
@@ -57,28 +48,22 @@ def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
     return value
 
 
-class Motion:
-    """Law and linkage of a design file."""
+def _most(values: Any) -> Any:
+    """The greatest value, as Python's own; of many motions that of each row."""
+    found = values.max(axis=-1)
+    return found if found.ndim else found.item()
+
+
+class Timing:
+    """Phases and law of a design file; designs that differ in other keys share it."""
 
     def __init__(self, spec: SwingGripperSpec) -> None:
         self.spec = spec
-
-    def varied(self, spec: SwingGripperSpec) -> Motion:
-        """The motion of another file; what follows from its law alone is kept where that is the same."""
-        made = Motion(spec)
-        if all(name in _NOT_OF_LAW or value == getattr(self.spec, name) for name, value in spec):
-            keep(made, **kept(self, *_OF_LAW))
-        return made
 
     @cached_property
     def shaft_speed(self) -> float:
         """Angular velocity of the cylinder shaft [rad/s]: one revolution a sheet."""
         return self.spec.speed / 3600.0 * 2.0 * math.pi
-
-    @property
-    def turn_time(self) -> float:
-        """Time of a revolution of the cylinder shaft [ms]."""
-        return 2e3 * math.pi / self.shaft_speed
 
     @cached_property
     def phases(self) -> SixPhases:
@@ -114,11 +99,6 @@ class Motion:
         """Cylinder angle of the handover [deg]."""
         given = self.spec.handover
         return self.phases.accelerate + 0.5 * self.phases.constant if given is None else given
-
-    @property
-    def handover_angle(self) -> float:
-        """The same [rad]."""
-        return math.radians(self.handover)
 
     @cached_property
     def _drive(self) -> Drive:
@@ -208,14 +188,56 @@ class Motion:
             ),
         )
 
+
+def _alike(one: SwingGripperSpec, other: SwingGripperSpec, keys: tuple[str, ...]) -> bool:
+    return all(getattr(one, key) == getattr(other, key) for key in keys)
+
+
+class Motion:
+    """Law and linkage of a design file; designs that differ in other keys share it."""
+
+    def __init__(self, spec: SwingGripperSpec, timing: Timing | None = None) -> None:
+        self.spec, self.timing = spec, timing or Timing(spec)
+
+    def varied(self, spec: SwingGripperSpec) -> Motion:
+        """The motion of another file: the same where law and linkage are, or one with the same law."""
+        if not _alike(spec, self.timing.spec, _OF_LAW):
+            return Motion(spec)
+        return self if _alike(spec, self.spec, _OF_LINKAGE) else Motion(spec, self.timing)
+
+    shaft_speed: float = placed("timing.shaft_speed")
+    phases: SixPhases = placed("timing.phases")
+    phase_angles: SixPhases = placed("timing.phase_angles")
+    handover: float = placed("timing.handover")
+    law: SixPhaseLaw = placed("timing.law")
+
+    @property
+    def turn_time(self) -> float:
+        """Time of a revolution of the cylinder shaft [ms]."""
+        return 2e3 * math.pi / self.shaft_speed
+
+    @property
+    def handover_angle(self) -> float:
+        """The same [rad]."""
+        return math.radians(self.handover)
+
     @cached_property
     def linkage(self) -> GripperLinkage:
         """The four-bar A-C-D-E driven by the law at ED."""
-        from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, require_swing
+        from gearlink.core.machines.swing_gripper.linkage import require_swing
+
+        with at_key("pivots"):
+            require_swing(self.unchecked, math.radians(self.spec.limits.transmission_angle))
+        return self.unchecked
+
+    @cached_property
+    def unchecked(self) -> GripperLinkage:
+        """The same, whether it can make its swing or not."""
+        from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
 
         spec = self.spec
         self._require_pivots_apart()
-        linkage = GripperLinkage(
+        return GripperLinkage(
             law=self.law,
             input_pivot=complex(*spec.pivots.input),
             output_pivot=complex(*spec.pivots.output),
@@ -226,9 +248,6 @@ class Motion:
             swing_sense=spec.swing_sense,
             assembly=spec.assembly,
         )
-        with at_key("pivots"):
-            require_swing(linkage, math.radians(spec.limits.transmission_angle))
-        return linkage
 
     def _require_pivots_apart(self) -> None:
         pivots = self.spec.pivots
@@ -240,26 +259,28 @@ class Motion:
             )
 
     @cached_property
-    def extremes(self) -> dict[str, float]:
-        """Extremes of speed and acceleration of both rockers [rad/s, rad/s^2], and all their places [rad]."""
-        import numpy as np
+    def extremes(self) -> dict[str, Any]:
+        """Extremes of speed and acceleration of both rockers and of the transmission angles, and their places."""
+        least = [math.radians(self.law.reaches(each.place)) for each in self.linkage.least_transmission]
+        return {**self.rates, "min_transmission_angle_at": least}
 
+    @cached_property
+    def rates(self) -> dict[str, float]:
+        """Extremes of speed and acceleration of both rockers [rad/s, rad/s^2], and all their places [rad]."""
         from gearlink.core.numerics.motion_extremes import extremes
 
-        joints = [math.radians(start) for start in self.law.starts]
+        joints = [start * _RADIAN for start in self.law.starts]
 
         def curve(name: str, order: int) -> Any:
             scale = self.shaft_speed**order
-            return lambda theta: getattr(self.linkage.motion(np.degrees(theta), order), name) * scale
+            return lambda theta: getattr(self.linkage.kept_motion(theta, 2), name) * scale
 
         curves = {
             f"{link}_{rate}": curve(f"{link}_{rate}", order)
             for link in ("input", "output")
             for order, rate in enumerate(("velocity", "acceleration"), start=1)
         }
-        found: dict[str, Any] = dict(extremes(curves, 0.0, _TURN, joints=joints))
-        least = [math.radians(self.law.reaches(each.place)) for each in self.linkage.least_transmission]
-        return found | {"min_transmission_angle_at": least}
+        return extremes(curves, 0.0, _TURN, joints=joints)
 
     @cached_property
     def min_transmission_angle(self) -> tuple[float, float]:
@@ -281,20 +302,23 @@ class Motion:
         motion = self.linkage.motion(degrees, 0)
         return degrees, two_ways(self.linkage, motion)
 
-    @property
+    @cached_property
     def newton_agreement(self) -> float:
         """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
-        return float(self.loop.deviation.max())
+        most: float = _most(self.loop.deviation)
+        return most
 
     @cached_property
     def rough_agreement(self) -> float:
         """The same every 15 deg [rad], of one of many designs that are tried."""
-        return float(self.loop_at(_FEW)[1].deviation.max())
+        most: float = _most(self.loop_at(_FEW)[1].deviation)
+        return most
 
-    @property
+    @cached_property
     def newton_iterations(self) -> int:
         """Most Newton-Raphson steps at a position."""
-        return int(self.loop.iterations.max())
+        most: int = _most(self.loop.iterations)
+        return most
 
     @property
     def condition_number(self) -> float:

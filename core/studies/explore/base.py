@@ -332,11 +332,12 @@ def _evaluated(
     for _, design in made:
         if not isinstance(design, Single):
             there.setdefault(type(design), []).append(design)
+    asked = (*names, *checks_of(base, codes))
     for cls, designs in there.items():
-        cls.find_together(designs, names)
+        cls.find_together(designs, asked)
     for changes, design in made:
         found = _judged(base, design, names, codes)
-        if len(made) > 1 and any(map(_is_next_to_its_limit, found.findings)):
+        if len(made) > 1 and any(_is_next_to_its_limit(check) for check in _of_found(design, found)):
             found = _judged(base, _made(base, changes), names, codes)
         yield found
 
@@ -349,6 +350,12 @@ def _judged(base: Base, design: Design | Single, names: Sequence[str], codes: Se
         return Single(base.values(design, names, checks), tuple(findings_of(base, design, codes)))
     except Refused as error:
         return _refused(error)
+
+
+def _of_found(design: Design | Single, found: Single) -> Iterable[Check]:
+    """Findings that rest on what was found among other designs."""
+    alone = frozenset() if isinstance(design, Single) else design.alone
+    return (check for check in found.findings if check.name not in alone)
 
 
 def _is_next_to_its_limit(check: Check) -> bool:

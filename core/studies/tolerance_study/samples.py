@@ -119,7 +119,7 @@ def _one_by_one(made: Problem, columns: Columns, names: Sequence[str]) -> Evalua
     designs = [_tried(made, row) for row in rows_of(columns)]
     there = [design for design in designs if not isinstance(design, Single)]
     if there:
-        type(there[0]).find_together(there, names)
+        type(there[0]).find_together(there, (*names, *checks_of(made.base, list(made.base.codes))))
     return as_arrays([_single(made, design, names) for design in designs], names, list(made.base.codes))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import dataclass
 from typing import Any
 
 import factory
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.many_designs import Unlike, column, hand_out, together
+from gearlink.core.base.many_designs import Unlike, column, hand_in, hand_out, in_groups, stacked, together
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import unit_at
 from gearlink.core.numerics.extremes import maximum_over
@@ -157,6 +158,42 @@ def test_what_differs_by_words_stands_in_no_column() -> None:
     assert together([one, thicker]).cam.prime_radius.tolist() == [[60.0], [61.0]]
     with pytest.raises(Unlike):
         together([one, thicker], ("prime_radius",))
+
+
+@dataclass(frozen=True)
+class Part:
+    size: Any
+    inner: Any = None
+    pair: Any = (1.0, 2.0)
+
+
+def test_dataclasses_of_numbers_are_stacked() -> None:
+    one, other = Part(1.0, Part(2.0), (1.0, 2.0j)), Part(1.0, Part(3.0), (1.0, 4.0 + 0j))
+    many = stacked([one, other])
+    assert (many.size, many.inner.size.tolist(), many.pair[0]) == (1.0, [[2.0], [3.0]], 1.0)
+    assert many.pair[1].tolist() == [[2.0j], [4.0 + 0j]]
+    assert stacked([one, other], inner="known", pair=()).inner == "known"
+    for unlike in (Part(1.0, None), Part(1.0, Part("x")), Part(1.0, Part(2.0), (1.0,))):
+        with pytest.raises(Unlike):
+            stacked([one, unlike])
+
+
+def test_results_are_handed_in_as_columns() -> None:
+    class Holder:
+        def __init__(self, number: float) -> None:
+            self.number = number
+
+        @cached_property
+        def value(self) -> Any:
+            return self.number, {"twice": 2.0 * self.number}["twice"]
+
+    many = Holder(0.0)
+    hand_in(many, [Holder(1.0), Holder(2.0)], "value")
+    assert [each.tolist() for each in many.value] == [[[1.0], [2.0]], [[2.0], [4.0]]]
+
+
+def test_designs_are_grouped_in_their_order() -> None:
+    assert in_groups([3, 1, 4, 1, 5], lambda each: each % 2) == [[3, 1, 1, 5], [4]]
 
 
 def test_results_are_handed_out_row_by_row() -> None:

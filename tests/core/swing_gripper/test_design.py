@@ -127,7 +127,7 @@ def test_turning_the_whole_machine_changes_nothing(angle: float) -> None:
         turn = np.exp(1j * math.radians(angle))
         assert np.abs(two.at(angles).profile - turn * one.at(angles).profile).max() <= 10 * POINT
         assert np.abs(two.at(angles).curvature - one.at(angles).curvature).max() <= 4 * CURVATURE
-    torque = [design.closure.inertia_torques(np.arange(0.0, 360.0, 3.0))[0] for design in (DESIGN, other)]
+    torque = [design.closure.inertia.torques(np.arange(0.0, 360.0, 3.0))[0] for design in (DESIGN, other)]
     assert np.abs(torque[1] - torque[0]).max() <= 512 * EPS * 293.0
     moved = complex(DESIGN.handover_center) * np.exp(1j * math.radians(angle)) + 12.0 + 70.0j
     assert abs(other.handover_center - moved) <= 1e-12

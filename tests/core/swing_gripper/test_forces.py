@@ -38,7 +38,7 @@ MASSES = Masses(0.11, 0.42, 0.018, 3.2, 0.05)
 def test_torques_and_forces_of_the_reference() -> None:
     case = CASES["DYN-01"]["expected"]
     degrees = np.array([71.5])
-    main, back = EXAMPLE.closure.inertia_torques(degrees)
+    main, back = EXAMPLE.closure.inertia.torques(degrees)
     assert EXAMPLE.closure.lift_sense == -1
     one, two = contact_torques(400.0, main, back, -1)
     force = 1.0 / 0.16
@@ -62,7 +62,7 @@ def test_worst_torque_of_the_turn() -> None:
     speed = 12000.0 * math.sqrt(400.0 / float(expected["T_inertia_max"]))
     assert EXAMPLE.lift_off_speed == pytest.approx(speed, rel=64 * EPS, abs=0.0)
     least = float(REFERENCE["example_extremes_1deg_scan"]["T_inertia"]["min"])
-    assert EXAMPLE.closure.inertia_torques(np.array([275.0]))[0][0] == pytest.approx(least, rel=1e-11, abs=0.0)
+    assert EXAMPLE.closure.inertia.torques(np.array([275.0]))[0][0] == pytest.approx(least, rel=1e-11, abs=0.0)
 
 
 @pytest.mark.quick(3)
@@ -87,7 +87,7 @@ def test_work_of_the_inertia_torque_is_gain_of_energy(start: float, end: float, 
 
 
 def test_a_dwell_needs_no_torque() -> None:
-    main, back = EXAMPLE.closure.inertia_torques(np.array([165.0, 300.0, 345.0]))
+    main, back = EXAMPLE.closure.inertia.torques(np.array([165.0, 300.0, 345.0]))
     assert (main == 0.0).all()
     assert (back == 0.0).all()
 
@@ -95,7 +95,7 @@ def test_a_dwell_needs_no_torque() -> None:
 def test_torque_grows_with_the_square_of_the_speed() -> None:
     fast = machine(speed=24000.0)
     degrees = np.arange(0.0, 360.0, 5.0)
-    one, other = EXAMPLE.closure.inertia_torques(degrees)[0], fast.closure.inertia_torques(degrees)[0]
+    one, other = EXAMPLE.closure.inertia.torques(degrees)[0], fast.closure.inertia.torques(degrees)[0]
     assert np.abs(other - 4.0 * one).max() <= 16 * EPS * 4.0 * LARGEST
     assert fast.lift_off_speed == pytest.approx(EXAMPLE.lift_off_speed, rel=16 * EPS, abs=0.0)
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,7 +43,7 @@ def solve(
     """Angles of coupler and rocker over an array of crank angles, and their rates up to the wanted order.
 
     Parameters
-        linkage : FourBar
+        linkage : FourBar - of which the lengths may be columns; the angles then have a row for each, or are for all
         crank_angle : array of any shape [rad]
         order : 0..3 - 0 angles only, 1 velocities, 2 accelerations, 3 jerks too
         velocity, acceleration, jerk : float or array that broadcasts [rad/s, rad/s2, rad/s3] - motion of the
@@ -59,14 +60,11 @@ def solve(
     Source
         as `position.solve`
     """
-    angle = np.asarray(crank_angle, dtype=np.float64)
-    rows = _sweep(linkage.reading, np.ascontiguousarray(angle).ravel(), order, _write_angles, None)
-    shaped = [row.reshape(angle.shape) for row in rows]
-    return FourBarState(*_driven(shaped, velocity, acceleration, jerk))
+    return FourBarState(*_driven(_angles(linkage.reading, crank_angle, order), velocity, acceleration, jerk))
 
 
 def solve_inverse(
-    linkage: FourBar,
+    linkage: FourBar | Reading,
     rocker_angle: ArrayLike,
     order: int = 0,
     *,
@@ -77,7 +75,7 @@ def solve_inverse(
     """Angles of crank and coupler over an array of rocker angles, the rocker driving, and their rates.
 
     Parameters
-        linkage : FourBar - its assembly reads here: sign of sin(crank angle - coupler angle)
+        linkage : FourBar - its assembly reads here: sign of sin(crank angle - coupler angle); or its inverse reading
         rocker_angle : array of any shape [rad]
         order : 0..3
         velocity, acceleration, jerk : float or array that broadcasts - motion of the rocker
@@ -94,11 +92,10 @@ def solve_inverse(
     Source
         own derivation: exchange symmetry of the loop equation
     """
-    angle = np.asarray(rocker_angle, dtype=np.float64)
-    rows = _sweep(inverse_reading(linkage), np.ascontiguousarray(angle).ravel(), order, _write_angles, None)
+    reading = inverse_reading(linkage) if isinstance(linkage, FourBar) else linkage
+    rows = _angles(reading, rocker_angle, order)
     rows[1] += math.pi
-    shaped = [row.reshape(angle.shape) for row in rows]
-    coupler, crank, transmission, *rates = _driven(shaped, velocity, acceleration, jerk)
+    coupler, crank, transmission, *rates = _driven(rows, velocity, acceleration, jerk)
     rates[0::2], rates[1::2] = rates[1::2], rates[0::2]
     return FourBarInverseState(crank, coupler, transmission, *rates)
 
@@ -166,30 +163,53 @@ def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jer
     return [*rows[:3], *in_motion(rows[3:], *(np.asarray(x, dtype=np.float64) for x in motion))]
 
 
+def _angles(reading: Reading, driving: ArrayLike, order: int) -> list[Reals]:
+    """Rows of `_write_angles` and `_rates` in the shape of the driving angles, or of many linkages' constants."""
+    angle = np.asarray(driving, dtype=np.float64)
+    constants: tuple[Any, ...] = reading
+    columns = [len(each) for each in constants if isinstance(each, np.ndarray)]
+    if columns:
+        angle = np.broadcast_to(angle, (columns[0], angle.shape[-1]))
+    phi = np.ascontiguousarray(angle)
+    rows = _sweep(reading, phi if columns else phi.ravel(), order, _write_angles, None)
+    return [row.reshape(angle.shape) for row in rows]
+
+
 Scratch = tuple[Reals, ...]
 Writer = Callable[[Reading, Reals, Scratch, Reals], int]
 
 
 def _sweep(reading: Reading, phi: Reals, order: int, write: Writer, out: Reals | None) -> Reals:
-    """Fill position rows by `write` and then the pairs of rates, block by block."""
+    """Fill position rows by `write` and then the pairs of rates, block by block.
+
+    Where constants are columns phi has rows, of which a block holds some.
+    """
     if not 0 <= order <= 3:
         raise ValueError(f"order is {order}; the rates go from 0 to 3")
-    shape = ((4 if write is _write_vectors else 3) + 2 * order, phi.size)
+    shape = ((4 if write is _write_vectors else 3) + 2 * order, *phi.shape)
     if out is None:
         out = np.empty(shape)
     elif out.shape != shape:
         raise ValueError(f"out has the shape {out.shape}; it must be {shape}")
-    scratch = np.empty((11, min(phi.size, BLOCK)))
+    size = BLOCK if phi.ndim == 1 else max(1, BLOCK // max(1, phi.shape[1]))
+    scratch = np.empty((11, min(len(phi), size), *phi.shape[1:]))
     with np.errstate(invalid="ignore"):
-        for start in range(0, phi.size, BLOCK):
-            angle = phi[start : start + BLOCK]
-            block = out[:, start : start + BLOCK]
-            rows = tuple(scratch[:, : angle.size])
-            _triangle(reading, angle, order, rows)
-            done = write(reading, angle, rows, block)
+        for start in range(0, len(phi), size):
+            some = slice(start, start + size)
+            angle, block = phi[some], out[:, some]
+            own = reading if phi.ndim == 1 else _of_some(reading, some)
+            rows = tuple(scratch[:, : len(angle)])
+            _triangle(own, angle, order, rows)
+            done = write(own, angle, rows, block)
             if order > 0:
-                _rates(reading, rows, block[done:])
+                _rates(own, rows, block[done:])
     return out
+
+
+def _of_some(reading: Reading, some: slice) -> Reading:
+    """The constants of some of many linkages."""
+    constants: tuple[Any, ...] = reading
+    return Reading._make(each[some] if isinstance(each, np.ndarray) else each for each in constants)
 
 
 def _triangle(reading: Reading, phi: Reals, order: int, rows: Scratch) -> None:
@@ -218,6 +238,8 @@ def _linear(at_0: float, at_pi: float, tt: Reals, out: Reals) -> None:
 
 def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Reals) -> None:
     """Raise for the first angle that has no position, or no rates when rates are wanted."""
+    if phi.ndim > 1:
+        raise NoSolution("one of the four-bars does not close, or has no rates")
     product = p * q
     good = (product > 0.0) | ((product == 0.0) & (n > 0.0)) if order == 0 else product > 0.0
     if not good.all():
@@ -226,15 +248,19 @@ def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Rea
 
 
 def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> int:
-    """Coupler, rocker and transmission angle, continuous as in `loop.solve_loop`."""
+    """Coupler, rocker and transmission angle, continuous as in `loop.solve_loop`.
+
+    Of many linkages all have a driving link that is longer than the frame, or none has, and are read the same way.
+    """
     t, tt, one, n, r, z, x, y, nu, *_ = rows
     a, d, s = reading.a, reading.d, float(reading.s)
     winding: Reals | float = 0.0
-    if a > abs(d):
-        winding = phi - math.pi if d > 0.0 else phi
+    ahead, longer = (d > 0.0, a > abs(d)) if phi.ndim == 1 else (np.all(d > 0.0), np.all(a > abs(d)))
+    if longer:
+        winding = phi - math.pi if ahead else phi
         _arg(2.0 * d, a - d, a + d, t, tt, x, nu)
     else:
-        side = math.copysign(1.0, d)
+        side = 1.0 if ahead else -1.0
         _arg(-2.0 * a * side, (d - a) * side, (d + a) * side, t, tt, x, nu)
     np.multiply(one, reading.e, out=x)
     np.add(x, n, out=y)
@@ -361,7 +387,9 @@ class NewtonSweep:
     residual: Reals
 
 
-def solve_by_newton(linkage: FourBar, crank_angle: ArrayLike, over: tuple[float, float] | None = None) -> NewtonSweep:
+def solve_by_newton(
+    linkage: FourBar, crank_angle: ArrayLike, over: tuple[float | Reals, float | Reals] | None = None
+) -> NewtonSweep:
     """Positions over an array of crank angles, each from the motion's place at an anchor up to 2.5 degrees away.
 
     theta = theta(anchor) + h theta' + h^2 theta''/2,   h = phi - anchor,   then `polish`
@@ -389,8 +417,7 @@ def solve_by_newton(linkage: FourBar, crank_angle: ArrayLike, over: tuple[float,
     phi = np.asarray(crank_angle, dtype=np.float64)
     if phi.size == 0:
         return NewtonSweep(phi.copy(), phi.copy(), np.zeros(phi.shape, dtype=np.int64), phi.copy())
-    ends = phi if over is None else np.array(over)
-    low, high = float(ends.min()), float(ends.max())
+    low, high = (phi.min(), phi.max()) if over is None else (np.minimum(*over), np.maximum(*over))
     h = phi - np.minimum(low + _ANCHOR_STEP * np.rint((phi - low) / _ANCHOR_STEP), high)
     for _ in range(_MOST_HALVINGS):
         at = solve(linkage, phi - h, 2)
@@ -422,7 +449,7 @@ def start_is_safe(linkage: FourBar, crank_angle: ArrayLike, coupler_angle: Array
     """
     _, _, r, sine = loop_step(linkage, crank_angle, coupler_angle, rocker_angle)
     cosine = np.cos(np.subtract(rocker_angle, coupler_angle))
-    near = r <= min(linkage.coupler, linkage.rocker) * sine**2 / (2.0 + 2.0 * np.abs(cosine))
+    near = r <= np.minimum(linkage.coupler, linkage.rocker) * sine**2 / (2.0 + 2.0 * np.abs(cosine))
     return np.asarray(near & (linkage.assembly * sine < 0.0))
 
 
@@ -469,7 +496,8 @@ def polish(linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, r
     """
     starts = np.broadcast_arrays(crank_angle, coupler_angle, rocker_angle)
     phi, b, c = (np.array(x, dtype=np.float64) for x in starts)
-    longest = max(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame)
+    lengths = np.maximum(linkage.crank, linkage.coupler), np.maximum(linkage.rocker, linkage.frame)
+    longest = np.maximum(*lengths)
     iterations, last, active = np.zeros(phi.shape, dtype=np.int64), np.full(phi.shape, np.inf), np.ones(phi.shape, bool)
     for _ in range(MOST_ITERATIONS):
         d_b, d_c, _, sine = loop_step(linkage, phi, b, c)
@@ -492,7 +520,7 @@ def _checked(linkage: FourBar, phi: Reals, b: Reals, c: Reals) -> Reals:
     limit = 16.0 * _EPS * total * np.maximum(1.0, np.maximum(np.abs(b), np.abs(c)))
     good = (residual <= limit) & (linkage.assembly * sine < math.sqrt(_EPS))
     if not good.all():
-        at = np.unravel_index(np.argmin(good), good.shape)
+        at, limit = np.unravel_index(np.argmin(good), good.shape), np.broadcast_to(limit, good.shape)
         raise NoSolution(
             (
                 f"Newton-Raphson found no position of assembly {linkage.assembly:+d} at crank angle "
