@@ -148,8 +148,12 @@ def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
         owners : whose results are asked for later
         names : of kept results - numbers, None, or tuples, lists and dicts of these
     """
-    for name in names:
-        value = getattr(found, name)
+    hand_on(owners, **{name: getattr(found, name) for name in names})
+
+
+def hand_on(owners: Sequence[Any], **found: Any) -> None:
+    """Let each of the owners keep its own of results that were found for all of them."""
+    for name, value in found.items():
         for row, owner in enumerate(owners):
             keep(owner, **{name: _of_row(value, row)})
 

@@ -20,6 +20,17 @@ Points: TypeAlias = NDArray[np.complex128]
 Mask: TypeAlias = NDArray[np.bool_]
 
 
+def largest(values: NDArray[Any]) -> Any:
+    """The largest value, as Python's own; of rows an array of that of each.
+
+    Example
+        >>> largest(np.array([1.0, 3.0])), largest(np.array([[1.0, 3.0], [4.0, 2.0]])).tolist()
+        (3.0, [3.0, 4.0])
+    """
+    found = values.max(axis=-1)
+    return found if found.ndim else found.item()
+
+
 def distinct(values: ArrayLike) -> NDArray[Any]:
     """Each value once, ascending.
 

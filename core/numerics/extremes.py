@@ -236,6 +236,19 @@ def _values_of_rows(
     return found
 
 
+def larger(one: Extreme, other: Extreme) -> Extreme:
+    """The one of larger magnitude, of equal ones the first; of many, row by row.
+
+    Example
+        >>> larger(Extreme(2.0, 0.5), Extreme(-3.0, 1.0))
+        Extreme(value=-3.0, place=1.0)
+    """
+    if not isinstance(one.value, np.ndarray):
+        return max(one, other, key=lambda each: abs(each.value))
+    first = np.abs(one.value) >= np.abs(other.value)
+    return Extreme(*(np.where(first, *both) for both in zip(one, other, strict=True)))
+
+
 def least_of(found: Extreme, values: Reals, places: Reals) -> Extreme:
     """The least of an extreme and values at some places, of equal ones that at the lower place; of many, row by row.
 

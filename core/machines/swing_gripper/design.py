@@ -7,16 +7,16 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.design import Found, Outline, placed
-from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key, in_section
+from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key
 from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared, up
 from gearlink.core.base.report import NO_NUMBER, Check, Remedy, Rule, Shown, Status, Table, safely_above, safely_below
-from gearlink.core.base.results import cached_property, kept
+from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.swing_gripper.codes import (
     CONDITIONING,
@@ -26,12 +26,12 @@ from gearlink.core.machines.swing_gripper.codes import (
     PHASE_ALLOTMENT,
     STOP_SETTLING,
 )
-from gearlink.core.machines.swing_gripper.motion import Motion, Timing, require
-from gearlink.core.numerics.arrays import Points, Reals, product, turn_degrees
-from gearlink.core.numerics.extremes import Extreme, extremes_over
+from gearlink.core.machines.swing_gripper.fingers import FingerCam
+from gearlink.core.machines.swing_gripper.motion import Motion, require
+from gearlink.core.numerics.arrays import Reals, product, turn_degrees
+from gearlink.core.numerics.extremes import Extreme
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
-from gearlink.core.numerics.roots_sweep import newton_places, root_between
-from gearlink.core.numerics.together import kept_last
+from gearlink.core.numerics.roots_sweep import root_between
 from gearlink.core.parts.cams.checks import (
     AS_THICK_AS_ROLLER,
     HUB,
@@ -45,9 +45,9 @@ from gearlink.core.parts.cams.checks import (
     undercut_checks,
 )
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, LARGER, LIFT_OFF, PRESSURE_ANGLE, VELOCITY_STEP
-from gearlink.core.parts.cams.disc_cam import DiscCam, largest_pressure_angles, seek_together
+from gearlink.core.parts.cams.disc_cam import DiscCam, largest_pressure_angles
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
-from gearlink.core.parts.cams.laws import Law, law
+from gearlink.core.parts.cams.laws import Law
 from gearlink.core.parts.cams.profile import RollerPath, oscillating
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws
 from gearlink.core.parts.linkages.checks import transmission_check
@@ -60,7 +60,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.machines.swing_gripper.spec import (
         ClosingSpring,
-        FingerSection,
         GripperCam,
         Phases,
         Release,
@@ -78,7 +77,6 @@ if TYPE_CHECKING:
 # meanwhile, since it may not come to a dead centre.
 
 
-_SAMPLES = 256
 _DRUM_REMEDY = "turn arm.direction"
 
 
@@ -152,7 +150,8 @@ class Passes:
     """What passes the axes of a gripper with cams."""
 
     def __init__(self, design: SwingGripper) -> None:
-        self.axes, self.section, self.linkage = axes_of(design), design.cams.section, design.motion.linkage
+        self.axes, self.section, self.linkage = design.axes, design.cams.section, design.motion.linkage
+        self.beside_coupler = design.beside_coupler
 
     def __iter__(self) -> Iterator[Pass]:
         """Every link and roller against every axis that is not its own."""
@@ -185,10 +184,7 @@ class Passes:
                 yield Pass(body, radius, axis, near.distance, near.turned, by_rocker=True)
 
     def _coupler(self) -> Iterator[Pass]:
-        total, ends = self.linkage.law.total_swing, kept_last(partial(_coupler_ends, self.linkage))
-        wanted = [(lambda swing, place=axis.place: beside_line(place, *ends(swing)), False) for axis in self.axes]
-        found = extremes_over(wanted, 0.0, total, samples=_SAMPLES)
-        for axis, least in zip(self.axes, found, strict=True):
+        for axis, least in zip(self.axes, self.beside_coupler, strict=True):
             yield Pass("coupler CD", 0.0, axis, least.value, least.place)
 
     # The turn of the cam rocker over the swing
@@ -218,14 +214,6 @@ class Passes:
         if turned in (0.0, abs(self._sweep)):
             return high if turned else low
         return root_between(lambda swing: np.abs(_input_angle(self.linkage, swing) - self._ends[0]) - turned, low, high)
-
-
-def _coupler_ends(linkage: GripperLinkage, swing: Reals) -> tuple[Points, Points]:
-    """C and D [mm] at swing angles [rad]."""
-    motion = linkage.at(swing, (swing,))
-    c = linkage.input_pivot + linkage.input * np.exp(1j * motion.input_angle)
-    d = linkage.output_pivot + linkage.output * np.exp(1j * motion.output_angle)
-    return c, d
 
 
 def _input_angle(linkage: GripperLinkage, swing: Reals) -> Reals:
@@ -258,7 +246,7 @@ def _loss_near_dead_centre(design: SwingGripper) -> str:
 
 
 def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
-    peak = design.motion.law.peak(order)
+    peak = design.motion.law.peaks[order - 1]
     unit = "rad/rad" if order == 1 else "rad/rad^2"
     return step_check(rule, _jumps(design, order), peak, unit, bad, "take laws without end acceleration in laws")
 
@@ -348,8 +336,7 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
 
 
 def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
-    cams, end = design.cams.discs, math.radians(design.motion.law.starts[1])
-    for cam, worst in zip(cams, largest_pressure_angles(cams, 0.0, end, 128), strict=True):
+    for cam, worst in zip(design.cams.discs, design.cams.steepest_accelerating, strict=True):
         value = math.degrees(abs(worst.value))
         status: Status = "warn" if is_steep(value, limit) else "pass"
         what = f"pressure angle of the {cam.name} while it accelerates the gripper"
@@ -563,7 +550,7 @@ def beside_axes(design: SwingGripper) -> Iterator[Check]:
 def cams(design: SwingGripper) -> Iterator[Check]:
     """The cams against the axes of rocker and gripper, and that of the drum unless they stand on its shaft."""
     for cam in design.cams.discs:
-        for axis in axes_of(design)[1:]:
+        for axis in design.axes[1:]:
             room = abs(axis.place - design.cams.center) - cam.max_radius
             advice = axis.remedy
             shaft, takes = room_for_shaft(design, cam.roller_radius)
@@ -579,7 +566,7 @@ def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
     """
     drum, radius = drum_axis(design), design.spec.cylinder.radius
     needed, takes = room_for_shaft(design, design.cams.section.roller.radius)
-    for axis in axes_of(design)[:2]:
+    for axis in design.axes[:2]:
         within, thick = axis.radius, 0.0 if axis.radius > 0.0 else needed
         advice = axis.remedy
         if not (axis.letter == "O" and cam_turns_drum(design)):
@@ -790,6 +777,11 @@ class GripperCams(DiscCams):
         joints = tuple(math.radians(start) for start in self.motion.law.starts[:-1])
         return DiscCam(name, path, self.section.sense, roller.radius, joints)
 
+    @cached_property
+    def steepest_accelerating(self) -> tuple[Extreme, ...]:
+        """Pressure angle of largest magnitude of each cam in the phase accelerate [rad]."""
+        return tuple(largest_pressure_angles(self.discs, 0.0, math.radians(self.motion.law.starts[1])))
+
     @property
     def max_pressure_angle(self) -> tuple[float, ...]:
         """Maximum pressure angle of each cam [rad]."""
@@ -879,10 +871,6 @@ class Closure:
 
     def __init__(self, spec: SwingGripperSpec, motion: Motion, cams: GripperCams) -> None:
         self.spec, self.motion, self.cams = spec, motion, cams
-
-    def varied(self) -> Closure:
-        """The same, of which nothing is known yet."""
-        return Closure(self.spec, self.motion, self.cams)
 
     @cached_property
     def refusal(self) -> NoSolution | None:
@@ -1198,6 +1186,16 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         return None if self.spec.fingers is None else self.fingers.lift
 
     @cached_property
+    def axes(self) -> tuple[Axis, ...]:
+        """The axes of the frame."""
+        return axes_of(self)
+
+    @cached_property
+    def beside_coupler(self) -> tuple[Extreme, ...]:
+        """Minimum distance of each of the axes of the frame from the coupler [mm], and the swing [rad] there."""
+        return self.motion.linkage.beside_coupler([axis.place for axis in self.axes])
+
+    @cached_property
     def stop(self) -> Stop:
         """Where the arm rests in the near dwell."""
         from gearlink.core.machines.swing_gripper.forces import Stop
@@ -1307,9 +1305,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         if len(asked & _OF_CAMS) > 1:
             with suppress(GearlinkError):  # it is said where the quantity is asked for
                 self.cams.seek()
-        if self.spec.fingers is not None and asked.issuperset(_OF_FINGERS):
-            with suppress(GearlinkError):
-                self.fingers.seek()
 
     def raw(self, name: str) -> Any:
         """The value of a quantity; a point as its two coordinates; None of a stop that the file has not."""
@@ -1639,149 +1634,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         closing = ("lift-off",) if self.spec.spring is None or self.closure.refusal is not None else ()
         tables = outline.tables if cam.return_roller is not None else outline.tables[:1]
         return Outline((*chosen, *outline.quantities), (*outline.checks, *closing), tables)
-
-
-_TURN = 2.0 * math.pi
-_GRID = 3600
-
-
-# The cam that opens the fingers on the arm: coaxial with the gripper's axis, it turns with the cylinder.
-#
-# Seen from the arm the cam turns by Theta = eps theta - s beta, which runs one way as long as |beta'| < 1: the fingers,
-# closed on the way out and open on the return stroke at the same swing, then have one angle at each angle of their cam.
-
-
-class FingerCam:
-    """Fingers at the tip of the arm, a roller lever on the arm, and their cam.
-
-    Parameters
-        spec : SwingGripperSpec - with fingers
-        timing : Timing
-    Source
-        swing-gripper paper 1 lets the fingers open at the handover; the cam: own derivation
-    """
-
-    def __init__(self, spec: SwingGripperSpec, timing: Timing) -> None:
-        self.spec, self.timing = spec, timing
-
-    @property
-    def section(self) -> FingerSection:
-        """The section `fingers` of the design file."""
-        assert self.spec.fingers is not None, "needed only where the file has it"
-        return self.spec.fingers
-
-    @cached_property
-    def _laws(self) -> tuple[Law, Law]:
-        found = []
-        for name in ("open", "close"):
-            with in_section(f"fingers.{name}.law"):
-                found.append(law(getattr(self.section, name).law))
-            if found[-1].kind != "rest-to-rest":
-                raise NoSolution(
-                    f"fingers rest before and after: {found[-1].name} is {found[-1].kind}",
-                    key=f"fingers.{name}.law",
-                    fix="take cycloidal or modified-sine",
-                )
-        return found[0], found[1]
-
-    @property
-    def _ends(self) -> tuple[float, float, float, float]:
-        """Cylinder angles at which opening and closing begin and end [deg]."""
-        first, last = self.section.open, self.section.close
-        return first.from_, first.from_ + first.over, last.to - last.over, last.to
-
-    def opening(self, degrees: Reals, order: int = 2) -> list[Reals]:
-        """Angle eta by which the fingers are open, and its derivatives by theta [rad].
-
-        Parameters
-            degrees : (N,) array [deg] - cylinder angle, 0 to 360
-        """
-        start, opened, closing, closed = self._ends
-        whole = math.radians(self.section.open_angle)
-        found = [np.zeros_like(degrees) for _ in range(order + 1)]
-        found[0][(degrees >= opened) & (degrees <= closing)] = whole
-        for begin, end, one, sense in ((start, opened, self._laws[0], 1.0), (closing, closed, self._laws[1], -1.0)):
-            inside = (degrees > begin) & (degrees < end)
-            shape = one.evaluate((degrees[inside] - begin) / (end - begin), order)
-            found[0][inside] = whole * (shape[0] if sense > 0.0 else 1.0 - shape[0])
-            for n in range(1, order + 1):
-                found[n][inside] = sense * whole * shape[n] / math.radians(end - begin) ** n
-        return found
-
-    @property
-    def _sense(self) -> int:
-        """Sense of the cylinder that takes the sheet over: against the gripper's swing."""
-        return -self.spec.swing_sense
-
-    def cam_angle(self, degrees: Reals) -> tuple[Reals, Reals, Reals]:
-        """Turn of the cam seen from the arm, theta + beta in the cylinder's sense, and derivatives by theta [rad]."""
-        beta, first, second = self.timing.law.evaluate(degrees, 2)
-        return np.radians(degrees) + beta, 1.0 + first, second
-
-    @cached_property
-    def _grid(self) -> tuple[Reals, Reals]:
-        degrees = np.linspace(0.0, 360.0, _GRID, endpoint=False)
-        angle, rate, _ = self.cam_angle(degrees)
-        if np.min(rate) <= 0.0:
-            worst = float(degrees[int(np.argmin(rate))])
-            raise NoSolution(
-                f"the arm returns as fast as the cam of its fingers turns, at cylinder angle {worst:.4g} deg",
-                key="fingers",
-                fix="lengthen phases.return",
-            )
-        return np.append(degrees, 360.0), np.append(angle, _TURN)
-
-    def cylinder_degrees(self, cam_angle: Reals) -> Reals:
-        """Cylinder angle [deg] at angles of the cam seen from the arm [rad], by Newton's steps from a grid."""
-        grid, angles = self._grid
-        wanted = np.mod(cam_angle, _TURN)
-        degrees = np.asarray(np.interp(wanted, angles, grid), dtype=np.float64)
-
-        def excess(at: Reals, rows: Any) -> tuple[Reals, Reals]:
-            angle, rate, _ = self.cam_angle(at)
-            return angle - wanted[rows], np.radians(rate)
-
-        found = newton_places(excess, degrees, float(np.nextafter(360.0, 0.0)), 1e-14 * _TURN)
-        assert found is not None, "the cam angle rises all the way"
-        return found
-
-    @cached_property
-    def cam(self) -> DiscCam:
-        """The cam, in the frame of the arm: E the origin, the arm along +x."""
-        section = self.section
-        pivot, angle = complex(section.pivot, 0.0), math.radians(section.angle)
-
-        def path(phi: Reals, _order: int) -> RollerPath:
-            degrees = self.cylinder_degrees(phi)
-            eta, first, second = self.opening(degrees)
-            _, rate, bend = self.cam_angle(degrees)
-            speed = first / rate
-            return oscillating(pivot, section.lever, angle + eta, speed, (second - speed * bend) / rate**2)
-
-        joints = np.array(sorted({*self.timing.law.starts[:-1], *(each % 360.0 for each in self._ends)}))
-        places = tuple(self.cam_angle(joints)[0].tolist())
-        return DiscCam("finger cam", path, self._sense, section.roller_radius, places, "fingers")
-
-    def seek(self) -> None:
-        """Seek what the checks of the cam need, unless some is known."""
-        names = ("max_pressure_angle", "most_convex", "least_support")
-        if not kept(self.cam, *names):
-            seek_together((self.cam,), names)
-
-    @property
-    def release_degrees(self) -> float:
-        """Cylinder angle at which the fingers must have let go [deg]: the end of the release window."""
-        return self.timing.handover + (self.spec.release.window if self.spec.release is not None else 0.0)
-
-    @cached_property
-    def opened(self) -> float:
-        """Angle by which the fingers are open at the end of the release window [rad]."""
-        return float(self.opening(np.array([self.release_degrees]), 0)[0][0])
-
-    @property
-    def lift(self) -> float:
-        """Way of the finger tips at the end of the release window [mm]."""
-        return self.section.length * self.opened
 
 
 # A gripper's tip beside the drum that takes the sheet over: gap to the pitch circle, slip, speed difference.

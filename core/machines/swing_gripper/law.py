@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, largest
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.laws import Law
 
@@ -66,6 +66,27 @@ def balanced(rest: tuple[float, float, float], ratio: float, laws: tuple[Law, La
 
     first = bracketed_root(excess, 0.0, room / (1.0 + share))
     return SixPhases(first, constant, share * first, far, room - (1.0 + share) * first, near)
+
+
+class LawOfEach:
+    """The laws of one phase of many grippers.
+
+    Parameters
+        laws : Law of each
+    """
+
+    def __init__(self, laws: Sequence[Law]) -> None:
+        self.laws = list({id(law): law for law in laws}.values())
+        self.numbers = np.array([next(k for k, own in enumerate(self.laws) if own is law) for law in laws])
+        self.kappa = np.array([[law.kappa] for law in laws])
+
+    def evaluate(self, u: Reals, order: int, rows: NDArray[np.intp]) -> tuple[Reals, ...]:
+        """As of a `Law`, of places whose grippers `rows` tells."""
+        found, numbers = np.empty((order + 1, u.size)), self.numbers[rows]
+        for number, law in enumerate(self.laws):
+            own = numbers == number
+            found[:, own] = law.evaluate(u[own], order)
+        return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -121,9 +142,11 @@ class SixPhaseLaw:
         moving = (("accelerate", self.accelerate), ("decelerate", self.decelerate), ("return", self.return_))
         return tuple(phase for phase, law in moving if math.isinf(law.peak_jerk))
 
-    def peak(self, order: int) -> float:
-        """Largest magnitude of a derivative of the swing by theta, every half degree."""
-        return float(np.abs(self.evaluate(_HALF_DEGREES, order)[order]).max())
+    @cached_property
+    def peaks(self) -> tuple[float, float]:
+        """Largest magnitudes of the first and the second derivative of the swing by theta, every half degree."""
+        _, first, second = self.evaluate(_HALF_DEGREES, 2)
+        return largest(np.abs(first)), largest(np.abs(second))
 
     def reaches(self, swing: float) -> float:
         """Cylinder angle [deg] at which the working stroke has the swing [rad], from 0 to the total swing."""
@@ -159,7 +182,8 @@ class SixPhaseLaw:
     @cached_property
     def _many(self) -> int:
         """How many laws it is whose numbers are columns; 0 of one."""
-        numbers: tuple[Any, ...] = (self.speed, *self.lengths)
+        laws = (self.accelerate, self.decelerate, self.return_)
+        numbers: tuple[Any, ...] = (self.speed, *self.lengths, *(law.kappa for law in laws))
         return max((len(each) for each in numbers if isinstance(each, np.ndarray)), default=0)
 
     def evaluate(self, degrees: Any, order: int = 2) -> tuple[Reals, ...]:
@@ -208,16 +232,11 @@ class SixPhaseLaw:
         for index in range(_NEAR_DWELL):  # in which it rests at zero
             places = (phase == index).nonzero()
             if places[0].size:
-                start, end = self._at(places[0], self.starts[index], self.starts[index + 1])
+                start, end = of_rows(places[0], self.starts[index], self.starts[index + 1])
                 values = self.in_phase(index, (theta[places] - start) / (end - start), order, places[0])
                 for target, value in zip(out, values, strict=True):
                     target[places] = value
         return tuple(out)
-
-    def _at(self, rows: NDArray[np.intp] | None, *numbers: Any) -> Iterator[Any]:
-        """Numbers of the laws of some rows."""
-        for each in numbers:
-            yield each[rows, 0] if isinstance(each, np.ndarray) else each
 
     def in_phase(self, index: int, u: Any, order: int, rows: NDArray[np.intp] | None = None) -> tuple[Any, ...]:
         """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included), an array.
@@ -226,17 +245,17 @@ class SixPhaseLaw:
         """
         first, _, top = self._heights
         span = (self.starts[index + 1] - self.starts[index]) * _RADIAN
-        span, first, top, w = self._at(rows, span, first, top, self.speed)
+        span, first, top, w = of_rows(rows, span, first, top, self.speed)
         if index == 0:
-            return tuple(w * span * s / span**n for n, s in enumerate(self.accelerate.evaluate(u, order)))
+            return tuple(w * span * s / span**n for n, s in enumerate(_shape(self.accelerate, u, order, rows)))
         if index == 1:
             return (first + w * span * u, *(np.full_like(u, w if n == 1 else 0.0) for n in range(1, order + 1)))
         if index == 2:
-            shape = self.decelerate.evaluate(1.0 - u, order)
+            shape = _shape(self.decelerate, 1.0 - u, order, rows)
             scaled = [w * span * s / span**n * (-1.0) ** n for n, s in enumerate(shape)]
             return (top - scaled[0], *(-s for s in scaled[1:]))
         if index == 4:
-            shape = self.return_.evaluate(u, order)
+            shape = _shape(self.return_, u, order, rows)
             return (top * (1.0 - shape[0]), *(-top * s / span**n for n, s in enumerate(shape) if n))
         level = top if index == 3 else 0.0
         return (np.full_like(u, level), *(np.zeros_like(u) for _ in range(order)))
@@ -244,10 +263,21 @@ class SixPhaseLaw:
     @cached_property
     def joints(self) -> Reals:
         """Jumps of beta and its three derivatives at the six joints, (6, 4); row i is the start of phase i."""
-        before = [np.array([x[0] for x in self.in_phase((i - 1) % 6, np.array([1.0]), 3)]) for i in range(6)]
-        after = [np.array([x[0] for x in self.in_phase(i, np.array([0.0]), 3)]) for i in range(6)]
-        jumps: Reals = np.array(after) - np.array(before)
+        ends = np.array([self.in_phase(i, np.array([0.0, 1.0]), 3) for i in range(6)])
+        jumps: Reals = ends[:, :, 0] - np.roll(ends[:, :, 1], 1, axis=0)
         return jumps
+
+
+def _shape(law: Any, u: Any, order: int, rows: NDArray[np.intp] | None) -> tuple[Any, ...]:
+    """A law in its phase, or those of many grippers."""
+    found: tuple[Any, ...] = law.evaluate(u, order) if isinstance(law, Law) else law.evaluate(u, order, rows)
+    return found
+
+
+def of_rows(rows: NDArray[np.intp] | None, *numbers: Any) -> Iterator[Any]:
+    """Numbers, of columns those of some rows."""
+    for each in numbers:
+        yield each[rows, 0] if isinstance(each, np.ndarray) else each
 
 
 def require_law(phase: str, law: Law) -> None:

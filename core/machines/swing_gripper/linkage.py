@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 
@@ -20,7 +21,7 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over, least_of
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.linkages.fourbar.loop import Reading, in_motion
@@ -31,6 +32,7 @@ from gearlink.core.parts.linkages.fourbar.sweep import (
     solve_by_newton,
     solve_inverse,
 )
+from gearlink.core.studies.clearance import beside_line
 
 _MOST_KEPT = 8  # as many arrays as the grids of a design's searches, with room
 
@@ -200,6 +202,18 @@ class GripperLinkage:
         folded, stretched = abs(self.input - self.coupler), self.input + self.coupler
         rounding = _ROUNDING * (frame + self.output + stretched)
         return folded + rounding < min(reach) and max(reach) < stretched - rounding
+
+    def beside_coupler(self, places: Sequence[complex]) -> tuple[Extreme, ...]:
+        """Minimum distance of each place from the coupler over the swing [mm], and the swing [rad] there."""
+
+        def ends(swing: Reals) -> tuple[Points, Points]:
+            motion = self.at(swing, (swing,))
+            c = self.input_pivot + self.input * np.exp(1j * motion.input_angle)
+            return c, self.output_pivot + self.output * np.exp(1j * motion.output_angle)
+
+        both = kept_last(ends)
+        wanted = [(lambda swing, place=place: beside_line(place, *both(swing)), False) for place in places]
+        return tuple(extremes_over(wanted, 0.0, self.law.total_swing, samples=256))
 
     def transmission(self, direction: Reals) -> tuple[Reals, Reals]:
         """Angles between CD and ED and between AC and CD, folded [rad], at directions of ED from the frame line."""

@@ -48,12 +48,6 @@ def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
     return value
 
 
-def _most(values: Any) -> Any:
-    """The greatest value, as Python's own; of many motions that of each row."""
-    found = values.max(axis=-1)
-    return found if found.ndim else found.item()
-
-
 class Timing:
     """Phases and law of a design file; designs that differ in other keys share it."""
 
@@ -305,20 +299,26 @@ class Motion:
     @cached_property
     def newton_agreement(self) -> float:
         """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
-        most: float = _most(self.loop.deviation)
-        return most
+        from gearlink.core.numerics.arrays import largest
+
+        found: float = largest(self.loop.deviation)
+        return found
 
     @cached_property
     def rough_agreement(self) -> float:
         """The same every 15 deg [rad], of one of many designs that are tried."""
-        most: float = _most(self.loop_at(_FEW)[1].deviation)
-        return most
+        from gearlink.core.numerics.arrays import largest
+
+        found: float = largest(self.loop_at(_FEW)[1].deviation)
+        return found
 
     @cached_property
     def newton_iterations(self) -> int:
         """Most Newton-Raphson steps at a position."""
-        most: int = _most(self.loop.iterations)
-        return most
+        from gearlink.core.numerics.arrays import largest
+
+        found: int = largest(self.loop.iterations)
+        return found
 
     @property
     def condition_number(self) -> float:

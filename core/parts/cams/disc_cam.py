@@ -16,6 +16,7 @@ from gearlink.core.numerics.extremes import (
     Extreme,
     convex_radius,
     extremes_over,
+    larger,
     maximum_over,
     minimum_over,
 )
@@ -46,12 +47,12 @@ def seek_together(cams: Sequence[DiscCam], names: Sequence[str] = FOUND_TOGETHER
         keep(cam, **{name: found if name in _WITH_PLACE else found.value for name, found in extremes})
 
 
-def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int) -> list[Extreme]:
+def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int = 128) -> list[Extreme]:
     """Pressure angle of largest magnitude of each cam between two cam angles [rad], its sign kept."""
     near = [replace(cam, path=_kept(cam.path, 1)) for cam in cams]
     wanted = [(cam.pressure_angle, greatest) for cam in near for greatest in (True, False)]
     found = iter(extremes_over(wanted, start, end, samples=samples))
-    return [max(next(found), next(found), key=lambda extreme: abs(extreme.value)) for _ in cams]
+    return [larger(next(found), next(found)) for _ in cams]
 
 
 def _kept(path: Callable[[Reals, int], RollerPath], order: int = 2) -> Callable[[Reals, int], RollerPath]:

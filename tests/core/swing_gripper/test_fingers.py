@@ -14,6 +14,7 @@ import pytest
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams.disc_cam import DiscCam
 
 DEGREES = np.array([0.0, 55.0, 103.0, 107.0, 111.0, 150.0, 200.0, 260.0, 318.0, 330.0, 345.0, 355.0])
 
@@ -109,3 +110,31 @@ def test_the_cam_of_the_fingers_is_judged_as_others_are() -> None:
             (found,) = [each for each in design.check(name) if "finger" in each.what]
             assert found.status == status
         assert cam in design.discs
+
+
+@pytest.mark.parametrize("fingers", [FINGERS, None])
+def test_extremes_over_the_cylinder_angle_are_those_over_the_cam_angle(fingers: Any) -> None:
+    """Sought the other way, with the cylinder angle solved for at each cam angle; places to the root of rounding."""
+    keys = {} if fingers is None else {"fingers": fingers}
+    cam = factory.design("swing_gripper_stop", command="gripper", **keys).fingers.cam
+    other = DiscCam(cam.name, cam.path, cam.sense, cam.roller_radius, cam.joints, cam.key)
+    for name in ("max_pressure_angle", "most_convex"):
+        found, expected = getattr(cam, name), getattr(other, name)
+        assert found.value == pytest.approx(expected.value, rel=1e-11)
+        assert found.place == pytest.approx(expected.place, abs=1e-6)
+    assert cam.least_support == pytest.approx(other.least_support, rel=1e-11)
+
+
+def test_an_arm_that_returns_as_fast_as_the_cylinder_turns_has_no_cam_of_its_fingers() -> None:
+    design = gripper(phases={"accelerate": 100, "constant": 12, "decelerate": 50, "far_dwell": 8, "return": 60})
+    with pytest.raises(NoSolution, match="returns as fast as the cam of its fingers turns, at cylinder angle"):
+        design.check("cam-undercut")
+    slow = {"accelerate": 100, "constant": 12, "decelerate": 50, "far_dwell": 8, "return": 150}
+    assert gripper(phases=slow).fingers.cam.max_pressure_angle.value > 0.0
+
+
+def test_a_roller_of_the_fingers_that_passes_the_pole_is_refused_at_the_cam_angle() -> None:
+    design = gripper(fingers=FINGERS | {"open": {"from": 102.0, "over": 0.5}, "open_angle": 120.0})
+    with pytest.raises(NoSolution, match="passes the relative pole") as refused:
+        _ = design.fingers.cam.max_pressure_angle
+    assert refused.value.key == "fingers"

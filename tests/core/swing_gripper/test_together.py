@@ -23,8 +23,8 @@ CHANGES = {"links": LINKS, "cams": CAMS, "law": LAW, "rest": REST, "all": {**LIN
 PLACES = ("_at", "_angle")
 
 
-def _base(name: str = "swing_gripper_stop") -> Base:
-    return Base(factory.worked(name), "analyze")
+def _base(name: str = "swing_gripper_stop", *, warnings: bool = True) -> Base:
+    return Base(factory.worked(name), "analyze", warnings)
 
 
 def _rows(base: Base, widths: dict[str, float], count: int) -> list[list[tuple[str, Any]]]:
@@ -67,13 +67,27 @@ def test_all_that_is_searched_for_is_found_together() -> None:
     base = _base()
     designs: list[Any] = [base.design(row) for row in _rows(base, CHANGES["all"], 8)]
     checks = ["conditioning", "cam-undercut", "shaft-clearance", "lift-off"]
+    checks += ["velocity-step", "pressure-angle"]
     type(designs[0]).find_together(designs, ["input_velocity_max", "newton_agreement", "max_radius[0]", *checks])
     for design in designs:
+        assert "peaks" in vars(design.motion.law)
+        assert {"steepest_accelerating", "beside_coupler"} <= {*vars(design.cams), *vars(design)}
+        assert {"max_pressure_angle", "most_convex", "least_support"} <= set(vars(design.fingers.cylinder_cam))
         assert "least_transmission" in vars(design.motion.linkage)
         assert {"rates", "newton_agreement", "rough_agreement"} <= set(vars(design.motion))
         assert {"outward", "worst_unloading"} <= set(vars(design.closure))
         for cam in design.cams.discs:
             assert {"max_pressure_angle", "most_convex", "max_radius", "min_radius", "least_support"} <= set(vars(cam))
+
+
+def test_what_only_warns_is_left_out_where_nobody_asks() -> None:
+    base = _base(warnings=False)
+    designs: list[Any] = [base.design(row) for row in _rows(base, CHANGES["all"], 8)]
+    type(designs[0]).find_together(designs, ["shaft-clearance", "pressure-angle"])
+    for design in designs:
+        assert "max_pressure_angle" in vars(design.cams.main_cam)
+        assert {"max_radius", "least_support"}.isdisjoint(vars(design.cams.main_cam))
+        assert {"steepest_accelerating", "beside_coupler"}.isdisjoint({*vars(design.cams), *vars(design)})
 
 
 def test_designs_of_one_motion_share_it() -> None:
@@ -84,6 +98,9 @@ def test_designs_of_one_motion_share_it() -> None:
     assert third.motion is not fourth.motion  # type: ignore[attr-defined]
     assert third.motion.law is fourth.motion.law  # type: ignore[attr-defined]
     assert base.design([("phases.return", 121.0)]).motion.timing is not third.motion.timing  # type: ignore[attr-defined]
+    fifth, sixth = base.design([("spring.torque", 410.0)]), base.design([("spring.torque", 420.0)])
+    assert fifth.fingers is sixth.fingers  # type: ignore[attr-defined]
+    assert base.design([("fingers.lever", 44.0)]).fingers is not sixth.fingers  # type: ignore[attr-defined]
 
 
 def test_those_that_do_not_exist_leave_the_others_found_together() -> None:
@@ -114,11 +131,21 @@ def test_those_that_do_not_exist_leave_the_others_found_together() -> None:
 
 
 @pytest.mark.slow
-def test_other_laws_and_senses_are_found_apart() -> None:
+def test_designs_of_several_laws_and_rollers() -> None:
     base, alone = _base("swing_gripper"), _base("swing_gripper")
     laws = ["modified-sine", {"scca": [0.25, 0.25, 0.25, 0.25]}]
-    rows = [[("laws.return", law), *row] for law in laws for row in _rows(base, LINKS, 8)]
+    rows = [[("laws.return", law), *row] for law in laws for row in _rows(base, {**LINKS, **LAW}, 5)]
     rows += [[("cam.return_roller", None), *row] for row in _rows(base, LINKS, 2)]
+    random.Random(4).shuffle(rows)
+    names, codes = ["max_pressure_angle", "lift_off_speed"], list(base.codes)
+    for row, other in zip(rows, singles(base, rows, names, codes), strict=True):
+        _compare(single(alone, row, names, codes), other)
+
+
+@pytest.mark.slow
+def test_laws_that_are_nearly_each_its_own_leave_designs_to_themselves() -> None:
+    base, alone = _base("swing_gripper"), _base("swing_gripper")
+    rows: list[list[tuple[str, Any]]] = [[("laws.accelerate", {"quintic": 0.5 + 0.005 * k})] for k in range(10)]
     names, codes = ["max_pressure_angle", "lift_off_speed"], list(base.codes)
     for row, other in zip(rows, singles(base, rows, names, codes), strict=True):
         _compare(single(alone, row, names, codes), other)
