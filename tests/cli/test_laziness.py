@@ -296,7 +296,12 @@ _EVALUATED = [
     ("gripper", "swing_gripper", "total_swing", "law timing phases"),
     ("gripper", "swing_gripper", "handover_speed", "law timing phases state speed shaft_speed"),
     ("gripper", "swing_gripper", "min_transmission_angle", "law timing phases unchecked linkage"),
-    ("cam", "swing_gripper", "max_pressure_angle", "law timing phases unchecked linkage section center main_cam return_cam"),
+    (
+        "cam",
+        "swing_gripper",
+        "max_pressure_angle",
+        "law timing phases unchecked linkage section center main_cam return_cam",
+    ),
     ("swing", "wide_swing_twin_cam", "energy_parameter", "swing device plain_law"),
     ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing"),
     ("swing", "wide_swing_twin_cam", "spring_rate", "swing device plain_law"),
