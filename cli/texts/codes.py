@@ -290,7 +290,7 @@ TOLERANCES: tuple[Rule, ...] = (
         "too many sources",
         "The sources take more random numbers than 64 (32 with Sobol' indices); a pin takes two.",
         "Scrambled Sobol' points lose their balance in so many dimensions.",
-        "Leave out the sources that contribute minimum.",
+        "Leave out the sources with the smallest contributions.",
     ),
     Rule(
         "GL176",

@@ -221,8 +221,8 @@ def five_bar_for_positions(
         positions : sequence of (phi, psi) [rad] - two to five, phi ascending
         transmission_angle : float [rad] - the minimum that is wanted between the first and the last position
     Returns
-        bar : FunctionFiveBar - of those found that have this transmission angle the one whose links differ minimum in
-            length; where none has it, the one with the maximum
+        bar : FunctionFiveBar - of those found that have this transmission angle the one with the smallest differences
+            in length; where none has it, the one with the maximum
     Raises
         NoSolution - for too few or too many positions, or where nothing meets them on one unbroken motion
     Notes

@@ -440,7 +440,7 @@ def rooms(design: ThreeGearFourBar, window: float, band: float) -> tuple[Room, .
 
 
 def words(found: tuple[Room, ...]) -> str:
-    """What the length that changes minimum may be, in words."""
+    """What the length with the smallest change may be, in words."""
     return f"set {found[0].key} from {within(found[0].low, found[0].high, 'mm')}" if found else ""
 
 

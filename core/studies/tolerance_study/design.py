@@ -175,7 +175,7 @@ def drawn_yield(
 
 
 def _greedy(ranges: list[range], cost: Any, reached: LinearYield, target: float) -> list[tuple[int, ...]]:
-    """Grades made coarser one at a time, where the yield falls minimum for the cost saved; the cheapest first."""
+    """Grades made coarser one at a time, with the smallest loss of yield for the cost saved; the cheapest first."""
     grades = [row[0] for row in ranges]
     path = [tuple(grades)]
     while True:
