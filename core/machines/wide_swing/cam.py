@@ -41,10 +41,20 @@ class StrokeLaw(Protocol):
     def middle_jerk(self) -> float: ...
     def middle_view(self, k: Reals) -> MiddleView: ...
 
+    # by an angle that rises with k, 0 at mid-swing and alike on both sides of it
+    @property
+    def end_turn(self) -> float: ...
+    def view_at(self, turn: Reals) -> MiddleView: ...
+    def share_from_middle(self, turn: Reals) -> Reals: ...
+    def turn_at(self, share: float) -> float: ...
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CurveState:
-    """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made."""
+    """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made.
+
+    k and theta are no numbers where nobody asks for them.
+    """
 
     k: Reals
     theta: Reals
@@ -77,12 +87,23 @@ class PitchCurve:
 
     def state(self, k: Reals) -> CurveState:
         """The state at fractions k of the stroke."""
-        view = self.law.middle_view(k)
+        return self.state_of(self.law.middle_view(k), k - 0.5)
+
+    def state_at(self, turn: Reals) -> CurveState:
+        """The state at angles of the law, but for where the cam stands: neither pressure angle nor curvature ask it."""
+        return self.state_of(self.law.view_at(turn), np.full_like(turn, math.nan))
+
+    def timed_state_at(self, turn: Reals) -> CurveState:
+        """The whole state at angles of the law."""
+        return self.state_of(self.law.view_at(turn), self.law.share_from_middle(turn))
+
+    def state_of(self, view: MiddleView, share: Reals) -> CurveState:
+        """The state of a view of the law at k - 1/2."""
         speed_ratio = self.law.swing / self.cycle_angle
         turn = self.sense * speed_ratio
         return CurveState(
-            k=k,
-            theta=(k - 0.5) * self.cycle_angle,
+            k=0.5 + share,
+            theta=share * self.cycle_angle,
             psi=self.sense * view.angle,
             a=1.0 + turn * view.velocity,
             e=self.middle_gap + abs(self.ratio) * speed_ratio * view.deficit,
@@ -142,7 +163,7 @@ class PitchCurve:
 
 Step: TypeAlias = Callable[["Reals"], tuple["Reals", "Reals"]]
 
-_SMALLEST = 1e-4
+SMALLEST = 1e-4
 """Below this share of the stroke the leading order, good to the square of the zone, is nearer than the solution."""
 _SHRINK = 0.7
 _SETTLED = 1e-13
@@ -152,34 +173,30 @@ _KNOWN = 1e-16
 """Fractions of the stroke are known no better."""
 
 
-def covered(step: Step, roller_radius: float, far: float, estimate: float | None, noise: float = 0.0) -> float:
-    """Part of the stroke beside a stop of the pitch curve over which the roller, standing there, covers the profile.
+def covered(step: Step, roller_radius: float, far: float, estimate: float, noise: float = 0.0) -> float:
+    """Way t from a stop of the pitch curve over which the roller, standing there, covers the profile.
 
     |z + r_p n - z(stop)| = r_p
 
     Parameters
-        step : function of parts t of the stroke from the stop, an array - lengths of the pitch point's way from the
-            stop, and their components against the profile's normal [mm]
+        step : function of ways t from the stop, an array - lengths of the pitch point's way from the stop, and their
+            components against the profile's normal [mm]
         roller_radius : float [mm]
         far : float - t at which the profile must be free
-        estimate : float or None - leading order at a cusp; None where the pitch curve runs smoothly
+        estimate : float - t is sought from a hundredth of it on
         noise : float - rounding of t times t, where steps are differences of places
     Returns
         t : float - 0 where nothing is covered
     Raises
         NoSolution - where the profile is covered as far as `far`
-    Notes
-        At a cusp t has a relative error of at most 1e-7, at t = 1e-4.
     """
-    if estimate is not None and estimate < _SMALLEST:
-        return estimate
 
     def clearance(t: Reals) -> Reals:
         length, depth = step(t)
         room: Reals = length * length - 2.0 * roller_radius * depth
         return room
 
-    nearest = min(_SHRINK * far, 0.01 * (_SMALLEST if estimate is None else estimate))
+    nearest = min(_SHRINK * far, 0.01 * estimate)
     t: Reals = np.float64(far) * np.power(_SHRINK, np.arange(math.ceil(math.log(nearest / far, _SHRINK)) + 1))
     room = clearance(t)
     if room[0] <= 0.0:
@@ -212,28 +229,41 @@ def fitting_roller(length: float, depth: float) -> float:
 
 
 def contact_end(cam: WideSwingCam) -> float:
+    """Fraction of the stroke of `end_of_contact`."""
+    return end_of_contact(cam)[0]
+
+
+def end_of_contact(cam: WideSwingCam) -> tuple[float, float]:
     """Fraction of the stroke where the roller leaves the profile, whose rest its slot at mid-swing has cut away.
 
     Parameters
         cam : WideSwingCam
     Returns
         k : float - at most 1/2; the mirror image 1 - k is where contact begins again
+        turn : float - the angle of the law there
     Raises
         NoSolution - where the roller at mid-swing covers the start of the profile, or the pitch curve has a loop
     Notes
         With a rocker radius below that of (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where the
-        roller, standing there, cuts nothing away. Where it does, it cuts more just before mid-swing.
+        roller, standing there, cuts nothing away. Where it does, it cuts more just before mid-swing. At a cusp the
+        rest has a relative error of at most 1e-7, where it is 1e-4 of the stroke.
     Example
         >>> from gearlink.core.machines.wide_swing.cam import WideSwingCam
         >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> round(contact_end(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
+        >>> round(end_of_contact(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0))[0], 9)
         0.462338155
     """
-    smooth = cam.rocker_radius < cam.nominal_rocker_radius
-    estimate = None if smooth else cam.transition_zone_estimate
-    end = 0.5 - covered(partial(middle_step, cam), cam.roller_radius, 0.5, estimate)
-    return _cut_on_the_way(cam, end) if smooth and end < 0.5 else end
+    law, smooth = cam.law, cam.rocker_radius < cam.nominal_rocker_radius
+    estimate = SMALLEST if smooth else min(cam.transition_zone_estimate, 0.5)
+    if estimate < SMALLEST:
+        return 0.5 - estimate, law.turn_at(-estimate)
+    turn = covered(partial(step_before_middle, cam), cam.roller_radius, law.end_turn, law.turn_at(estimate))
+    end = 0.5 + float(law.share_from_middle(np.array([-turn]))[0])
+    if smooth and turn > 0.0:
+        end = _cut_on_the_way(cam, end)
+        turn = -law.turn_at(end - 0.5)
+    return end, -turn
 
 
 def _cut_on_the_way(cam: WideSwingCam, end: float) -> float:
@@ -243,7 +273,7 @@ def _cut_on_the_way(cam: WideSwingCam, end: float) -> float:
         return roller_before_middle(cam, k) - cam.roller_radius
 
     high, low = end, _SHRINK * end
-    while room(low) <= 0.0 and low > _SMALLEST:
+    while room(low) <= 0.0 and low > SMALLEST:
         high, low = low, _SHRINK * low
     return bracketed_root(room, low, high, tolerance=_SETTLED) if room(high) < 0.0 < room(low) else high
 
@@ -274,7 +304,15 @@ def roller_before_middle(cam: WideSwingCam, k: float) -> float:
 def middle_step(cam: WideSwingCam, t: Reals) -> tuple[Reals, Reals]:
     """Lengths of the pitch point's steps to mid-swing from t before it, and their parts along the profile's normal
     [mm]."""
-    state = cam.curve.state(0.5 - t)
+    return _step_to_middle(cam, cam.curve.state(0.5 - t))
+
+
+def step_before_middle(cam: WideSwingCam, turn: Reals) -> tuple[Reals, Reals]:
+    """The same from angles of the law before mid-swing."""
+    return _step_to_middle(cam, cam.curve.timed_state_at(-turn))
+
+
+def _step_to_middle(cam: WideSwingCam, state: CurveState) -> tuple[Reals, Reals]:
     # z(k) - z(1/2) in terms that vanish at mid-swing, each of them exact
     half = np.exp(0.5j * state.theta)
     turned = -2j * np.sin(0.5 * state.theta) * half * (1.0 - cam.ratio)
@@ -565,9 +603,14 @@ class WideSwingCam:
         Raises
             NoSolution - for a profile that does not exist, or where the roller at mid-swing covers its start
         """
-        self.require_profile()
-        end = contact_end(self)
+        end, _ = self._contact_end
         return (0.0, end), (1.0 - end, 1.0)
+
+    @cached_property
+    def _contact_end(self) -> tuple[float, float]:
+        """Where the roller leaves the profile before mid-swing: fraction of the stroke, and angle of the law."""
+        self.require_profile()
+        return end_of_contact(self)
 
     @cached_property
     def transition_zone(self) -> float:
@@ -597,8 +640,13 @@ class WideSwingCam:
         """
         if self._middle_gap != 0.0:
             return math.inf if self._middle_gap > 0.0 else -math.inf
-        inside = minimum_over(lambda k: self.curve.loop_measure(self.curve.state(k)), 0.0, 0.499, samples=256).value
-        return min(inside, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
+        return min(self._least_loop_measure, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
+
+    @cached_property
+    def _least_loop_measure(self) -> float:
+        """Minimum of it before mid-swing; nearer than a thousandth it is as good as that at mid-swing."""
+        curve, end = self.curve, self.law.end_turn
+        return minimum_over(lambda turn: curve.loop_measure(curve.state_at(turn)), -end, -1e-3 * end, samples=256).value
 
     def _loop(self, value: float) -> NoSolution:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
@@ -646,12 +694,12 @@ class WideSwingCam:
     @cached_property
     def _tops(self) -> list[Extreme]:
         """Maximum pressure angle and bulge where the roller touches the profile, of one state of the curve."""
-        state = kept_last(self.curve.state)
+        state = kept_last(self.curve.state_at)
         wanted = [
-            (lambda k: np.abs(self.curve.pressure_angle(state(k))), True),
-            (lambda k: self._bulge(state(k)), True),
+            (lambda turn: np.abs(self.curve.pressure_angle(state(turn))), True),
+            (lambda turn: self._bulge(state(turn)), True),
         ]
-        return extremes_over(wanted, *self.contact[0], samples=128)
+        return extremes_over(wanted, -self.law.end_turn, self._contact_end[1], samples=128)
 
     def pressure_angle(self, k: Reals) -> Reals:
         """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.

@@ -19,8 +19,10 @@ from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam
+from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.extremes import extremes_over, minimum_over
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.cams.undercut import Undercut, undercut
 
 if TYPE_CHECKING:
@@ -130,18 +132,21 @@ class ClosedCam:
 
     def state(self, sector: int, t: Reals) -> CurveState:
         """The state of the pitch curve at cam angles of one sector, by that sector's own formula to its ends."""
-        cam = self.cam
         start, end = self.starts[sector], self.starts[sector + 1]
         if sector % 2:
             return self._resting(t, 1.0 if sector == 1 else 0.0)
         share = np.clip((t - start) / (end - start), 0.0, 1.0)
-        driven = cam.curve.state(share if sector == 0 else 1.0 - share)
+        k = share if sector == 0 else 1.0 - share
+        return self._driven(sector, self.cam.law.middle_view(k), k - 0.5, t)
+
+    def _driven(self, sector: int, view: MiddleView, share: Reals, t: Reals) -> CurveState:
+        """The state in one of both strokes, of a view of the law at k - 1/2."""
+        cam = self.cam
+        driven = cam.curve.state_of(view, share)
         if sector == 0:
             return driven
         # the law backwards: velocity against, acceleration as in the law, over the other stroke's angle
-        pace = cam.law.swing / self.other
-        view = cam.law.middle_view(driven.k)
-        a = 1.0 - cam.sense * pace * view.velocity
+        a = 1.0 - cam.sense * (cam.law.swing / self.other) * view.velocity
         return replace(
             driven,
             theta=t - 0.5 * self.own,
@@ -152,8 +157,19 @@ class ClosedCam:
 
     def _resting(self, t: Reals, end: float) -> CurveState:
         cam, ones = self.cam, np.ones_like(t)
-        still = cam.curve.state(end * ones)
-        return replace(still, theta=t - 0.5 * self.own, a=ones, e=(1.0 - cam.ratio) * ones, second=0.0 * ones)
+        still, still_e = cam.curve.state(np.array([end])), (1.0 - cam.ratio) * ones
+        return CurveState(end * ones, t - 0.5 * self.own, still.psi * ones, ones, still_e, still.s * ones, 0.0 * ones)
+
+    def _by_turn(self, sector: int, place: Reals) -> tuple[CurveState, Reals]:
+        """The state, and the cam angle, where a place divides a stroke evenly by the angle of the law."""
+        if sector % 2:
+            return self.state(sector, place), place
+        start, end, law = self.starts[sector], self.starts[sector + 1], self.cam.law
+        sense = 1.0 if sector == 0 else -1.0
+        turn = sense * law.end_turn * np.clip(2.0 * (place - start) / (end - start) - 1.0, -1.0, 1.0)
+        share = law.share_from_middle(turn)
+        t = start + (0.5 + sense * share) * (end - start)
+        return self._driven(sector, law.view_at(turn), share, t), t
 
     def pitch(self, t: Reals) -> Points:
         """Roller centres in the cam's frame at cam angles from 0 to a revolution [mm]."""
@@ -161,7 +177,10 @@ class ClosedCam:
 
     def pitch_of(self, sector: int, t: Reals) -> Points:
         """Roller centres at cam angles of one sector [mm]."""
-        points: Points = self.cam.center_distance * self.cam.curve.pitch(self.state(sector, t))
+        return self._pitch(self.state(sector, t))
+
+    def _pitch(self, state: CurveState) -> Points:
+        points: Points = self.cam.center_distance * self.cam.curve.pitch(state)
         return points
 
     def contour(self, t: Reals) -> Points:
@@ -170,9 +189,13 @@ class ClosedCam:
 
     def contour_of(self, sector: int, t: Reals) -> Points:
         """Points of the contour at cam angles of one sector [mm]."""
-        cam, state = self.cam, self.state(sector, t)
+        state = self.state(sector, t)
+        return self._contour(sector, state, t, self._pitch(state))
+
+    def _contour(self, sector: int, state: CurveState, t: Reals, pitch: Points) -> Points:
+        cam = self.cam
         size = cam.roller_radius + (self._room(t) if sector == 2 else 0.0)
-        found = cam.center_distance * cam.curve.pitch(state) + cam.sense * size * cam.curve.normal(state)
+        found = pitch + cam.sense * size * cam.curve.normal(state)
         if sector:
             return np.asarray(found)
         start, end = self.slot
@@ -260,10 +283,23 @@ class ClosedCam:
     def cut(self) -> Undercut:
         """Deepest cut of the roller, on its way round the turn, into the contour."""
 
-        def points(t: Reals) -> tuple[Points, Points]:
-            return self.pitch(t), self.contour(t)
+        def points(places: Reals) -> tuple[Points, Points]:
+            pitch, contour = (np.empty(places.shape, dtype=np.complex128) for _ in range(2))
+            number = self.sector_at(places)
+            for sector in range(4):
+                here = (number == sector).nonzero()[0]
+                if here.size:
+                    state, t = self._by_turn(sector, places[here])
+                    pitch[here] = centres = self._pitch(state)
+                    contour[here] = self._contour(sector, state, t, centres)
+            return pitch, contour
 
-        return undercut(points, self.cam.roller_radius)
+        found = undercut(points, self.cam.roller_radius)
+        if found.depth == 0.0:
+            return found
+        places = np.array([found.cam_angle, found.roller_angle])
+        at = [float(self._by_turn(int(k), places[i : i + 1])[1][0]) for i, k in enumerate(self.sector_at(places))]
+        return Undercut(found.depth, *at)
 
     @cached_property
     def largest_clearance(self) -> float:
@@ -271,27 +307,36 @@ class ClosedCam:
 
         minimum (R - r_p)/share of the clearance there, R the curvature radius where the roller's path bulges
         """
-        roller = self.cam.roller_radius
+        cam, roller = self.cam, self.cam.roller_radius
 
-        def bend(t: Reals) -> Reals:
-            curvature = self.cam.curve.curvature(self.state(2, t))
-            return np.asarray(np.maximum(0.0, self.cam.sense / self.cam.center_distance * curvature))
+        def both(place: Reals) -> tuple[Reals, Reals]:
+            state, t = self._by_turn(2, place)
+            bend = np.maximum(0.0, cam.sense / cam.center_distance * cam.curve.curvature(state))
+            with np.errstate(divide="ignore", invalid="ignore"):
+                return bend, self._share(t) * bend / (1.0 - roller * bend)
 
-        place = self.starts[2], self.starts[3]
-        if roller * maximum_over(bend, *place, samples=128).value >= 1.0:
+        of = kept_last(both)
+        wanted = [(lambda place, i=i: of(place)[i], True) for i in (0, 1)]
+        sharpest, worst = (each.value for each in extremes_over(wanted, *self._half_of_free, samples=128))
+        if roller * sharpest >= 1.0:
             return 0.0
-        worst = maximum_over(lambda t: self._share(t) * bend(t) / (1.0 - roller * bend(t)), *place, samples=128).value
         return 1.0 / worst if worst > 0.0 else math.inf
+
+    @property
+    def _half_of_free(self) -> tuple[float, float]:
+        """The first half of the free sector, of which the other is the mirror image."""
+        return self.starts[2], 0.5 * (self.starts[2] + self.starts[3])
 
     @cached_property
     def least_radius(self) -> float:
         """Minimum distance of the contour from the cam axis [mm]."""
         slot = self.cam.middle_radius - self.cam.sense * self.cam.roller_radius
 
-        def nearness(t: Reals) -> Reals:
-            return np.abs(self.contour_of(2, t))
+        def nearness(place: Reals) -> Reals:
+            state, t = self._by_turn(2, place)
+            return np.abs(self._contour(2, state, t, self._pitch(state)))
 
-        free = minimum_over(nearness, self.starts[2], self.starts[3], samples=128).value
+        free = minimum_over(nearness, *self._half_of_free, samples=128).value
         return min(free, slot, self.rest_radius - self.cam.sense * self.cam.roller_radius)
 
 

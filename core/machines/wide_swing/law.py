@@ -299,13 +299,37 @@ class ElasticLaw:
             NoSolution - for k outside 0 to 1
         """
         sine, cosine, second = self._pendulum(k)
+        return self._view(np.where(second, sine, -sine), cosine)
+
+    def _view(self, sine: Reals, cosine: Reals) -> MiddleView:
+        """The same from sin u and cos u, both signs of u."""
         g = self.geometry
-        side = np.where(second, 1.0, -1.0)
         half = np.arctan2(g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine))
         velocity = self._velocity(sine, cosine)
         spent = self.energy_parameter * g.extension(sine) * g.mean_force_to_middle(sine)
         deficit = spent / (self.velocity_peak + velocity)
-        return MiddleView(2.0 * side * half, velocity, deficit, -side * self._acceleration(sine, cosine))
+        return MiddleView(2.0 * half, velocity, deficit, -self._acceleration(sine, cosine))
+
+    # The same by the pendulum angle u, 0 at mid-swing: no place has to be solved for
+
+    @property
+    def end_turn(self) -> float:
+        """u at the end of the stroke; at its start it is negative [rad]."""
+        return 0.5 * math.pi
+
+    def view_at(self, turn: Reals) -> MiddleView:
+        """`middle_view` at pendulum angles."""
+        return self._view(np.sin(turn), np.cos(turn))
+
+    def share_from_middle(self, turn: Reals) -> Reals:
+        """k - 1/2 at pendulum angles, of small relative error."""
+        scale = self.swing * self._rate
+        return np.sign(turn) * self._time_of(np.abs(turn), from_middle=True) / scale
+
+    def turn_at(self, share: float) -> float:
+        """The pendulum angle at k - 1/2."""
+        sine, cosine = self.pendulum(np.array([0.5 - abs(share)]))
+        return math.copysign(math.atan2(float(sine[0]), float(cosine[0])), share)
 
     def displacement(self, sine: Reals, cosine: Reals) -> Reals:
         """a in the first half from sin u and cos u, counted from the end of the half stroke that keeps the digits."""

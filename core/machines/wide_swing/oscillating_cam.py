@@ -19,6 +19,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing.cam import (
     LEAST_SPEED_RATIO,
+    SMALLEST,
     CamPoints,
     StrokeLaw,
     covered,
@@ -378,10 +379,13 @@ class OscillatingCam:
         shape = self._stop(stop)
         if shape[0] <= 0.0:
             return stop
+        estimate = self._left(shape)
+        if estimate < SMALLEST:
+            return stop + side * estimate
         other = self.middle if stop in (0.0, 1.0) else 0.5 + 0.5 * side
         far = _FAR * abs(other - stop)
         return stop + side * covered(
-            lambda t: self._step(stop + side * t, stop), self.roller_radius, far, self._left(shape), _NOISE
+            lambda t: self._step(stop + side * t, stop), self.roller_radius, far, estimate, _NOISE
         )
 
     def _step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:

@@ -11,6 +11,7 @@ run-out are each half of a symmetric stroke of their own, with the same rocker r
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -260,22 +261,42 @@ class SliderLaw:
     @cached_property
     def velocity_peak(self) -> float:
         """Largest velocity invariant of the rocker [-]."""
-        return maximum_over(lambda k: self.invariants(k, 1)[1], 0.0, 1.0, samples=128).value
+        return self._most(lambda sine, cosine: self._rates(sine, cosine)[0])
 
     @cached_property
     def acceleration_peak(self) -> float:
         """Largest magnitude of the rocker's acceleration invariant [-]."""
-        return maximum_over(lambda k: np.abs(self.invariants(k)[2]), 0.0, 1.0, samples=128).value
+        return self._most(lambda sine, cosine: np.abs(self._rates(sine, cosine)[1]))
 
     @cached_property
     def slider_velocity_peak(self) -> float:
         """Largest magnitude of the slider's velocity invariant [-]."""
-        return maximum_over(lambda k: np.abs(self.slider_invariants(k)[1]), 0.0, 1.0, samples=128).value
+        return self._most(lambda sine, cosine: np.abs(self._slider_rates(sine, cosine)[0]))
 
     @cached_property
     def slider_acceleration_peak(self) -> float:
         """Largest magnitude of the slider's acceleration invariant [-]."""
-        return maximum_over(lambda k: np.abs(self.slider_invariants(k)[2]), 0.0, 1.0, samples=128).value
+        return self._most(lambda sine, cosine: np.abs(self._slider_rates(sine, cosine)[1]))
+
+    def _most(self, of: Callable[[Reals, Reals], Reals]) -> float:
+        """Maximum over the stroke of a function of sin u and cos u."""
+        return maximum_over(lambda v: of(np.cos(v), np.sin(v)), 0.0, math.pi, samples=128).value
+
+    @cached_property
+    def fastest_turn(self) -> float:
+        """Angle v from the start at which the rocker is fastest [rad]."""
+        v = np.linspace(0.0, math.pi, 257)
+        top = int(np.argmax(self._rates(np.cos(v), np.sin(v))[0]))
+
+        def acceleration(at: float) -> float:
+            turn = np.array([at])
+            return float(self._rates(np.cos(turn), np.sin(turn))[1][0])
+
+        return bracketed_root(acceleration, float(v[max(top - 1, 0)]), float(v[min(top + 1, 256)]))
+
+    def share_at(self, v: float) -> float:
+        """k at an angle v from the start."""
+        return float(self._time_of(np.array([v]), self.clock)[0]) / self.clock.total
 
     def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity and acceleration invariants of the rocker.
@@ -329,11 +350,26 @@ class SliderLaw:
             NoSolution - for k outside 0 to 1
         """
         sine, cosine = self._pendulum(k)
-        b, c = self._rates(sine, cosine)
-        phi = self._angle(sine, cosine)
-        rate, change = self._slider_rate(phi)
         start = self.drive.depth(np.array([-0.5 * self.swing]))[0]
-        return (self.drive.depth(phi)[0] - start) / self.stroke, rate * b, rate * c + change * b**2
+        place = self.drive.depth(self._angle(sine, cosine))[0]
+        return (place - start) / self.stroke, *self._slider_rates(sine, cosine)
+
+    def _slider_rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
+        b, c = self._rates(sine, cosine)
+        rate, change = self._slider_rate(self._angle(sine, cosine))
+        return rate * b, rate * c + change * b**2
+
+    def rates_at(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals, Reals]:
+        """Rocker angle from mid-swing [rad], velocity and acceleration invariants from sin u and cos u."""
+        return self._angle(sine, cosine), *self._rates(sine, cosine)
+
+    def pace(self, sine: Reals, cosine: Reals) -> Reals:
+        """|dk/du| from sin u and cos u."""
+        return self._slowness(sine, cosine) / self.clock.total
+
+    def share_from(self, v: Reals, *, late: bool) -> Reals:
+        """Fraction of the stroke to an angle v counted from its start, or back from its end."""
+        return self._time_of(v, self._clock_from_end if late else self.clock) / self.clock.total
 
     def _rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
         g, parameter = self.geometry, self.energy_parameter
@@ -406,7 +442,8 @@ class SliderLaw:
 # External cam of a wide-swing rocker that drives a slider: a law without symmetry, as two half strokes
 
 
-_NEAR = 0.05
+_NEAR = 0.15
+"""Angle of the law beside k* [rad] within which differences of places keep too few digits."""
 _STEP = 1e-4  # of the stroke, for the jerk at k*, which only starts a search
 
 
@@ -429,10 +466,30 @@ class HalfLaw:
         """Fractions of the real stroke in one of this law's: 2 k* or 2 (1 - k*)."""
         return 2.0 * ((1.0 - self.place) if self.late else self.place)
 
+    @property
+    def _side(self) -> float:
+        return -1.0 if self.late else 1.0
+
+    @cached_property
+    def end_turn(self) -> float:
+        """Angle of the law from k* to its end of the stroke [rad]."""
+        return float(self._turn_of(np.array([self.place]))[0])
+
+    def _turn_of(self, real: Reals) -> Reals:
+        """Angle v from its end of the stroke at fractions of the real one."""
+        sine, cosine = self.law.pendulum(real)
+        return np.arctan2(cosine, self._side * sine)
+
+    @cached_property
+    def _fastest_angle(self) -> float:
+        """Rocker angle from mid-swing at k* [rad]."""
+        sine, cosine = self._side * np.cos([self.end_turn]), np.sin([self.end_turn])
+        return float(self.law.rates_at(sine, cosine)[0][0])
+
     @cached_property
     def fastest(self) -> float:
         """Displacement invariant at k*."""
-        return float(self.law.invariants(np.array([self.place]), 0)[0][0])
+        return 0.5 + self._fastest_angle / self.law.swing
 
     @cached_property
     def swing(self) -> float:
@@ -463,30 +520,53 @@ class HalfLaw:
             1e-15/|k - 1/2| of itself.
         """
         k = np.asarray(k, dtype=np.float64)
-        second, folded = k > 0.5, np.where(k > 0.5, 1.0 - k, k)
-        side = -1.0 if self.late else 1.0
-        real = 1.0 - folded * self.span if self.late else folded * self.span
-        a, b, c = self.law.invariants(real, 2)
-        angle = side * self.law.swing * (a - self.fastest)
-        sign = np.where(second, -1.0, 1.0)
+        folded = np.where(k > 0.5, 1.0 - k, k) * self.span
+        v = self._turn_of(1.0 - folded if self.late else folded)
+        return self._view(np.minimum(v, self.end_turn), k > 0.5)
+
+    def view_at(self, turn: Reals) -> MiddleView:
+        """The same at angles of the law from k*, negative before it."""
+        return self._view(self.end_turn - np.abs(turn), turn > 0.0)
+
+    def _view(self, v: Reals, second: Mask) -> MiddleView:
+        angle, b, c = self.law.rates_at(self._side * np.cos(v), np.sin(v))
+        sign = np.where(second, -self._side, self._side)
         return MiddleView(
-            sign * angle,
+            sign * (angle - self._fastest_angle),
             self.span * self._scale * b,
-            self.span * self._scale * self._deficit(real, b),
-            sign * side * self.span**2 * self._scale * c,
+            self.span * self._scale * self._deficit(v, b),
+            sign * self.span**2 * self._scale * c,
         )
 
-    def _deficit(self, real: Reals, velocity: Reals) -> Reals:
+    def share_from_middle(self, turn: Reals) -> Reals:
+        """k - 1/2 of this half's symmetric stroke at angles of the law from k*."""
+        v, shape = self.end_turn - np.abs(turn).ravel(), turn.shape
+        whole = self.law.share_from(np.array([self.end_turn]), late=self.late)
+        found = np.asarray(whole - self.law.share_from(v, late=self.late))
+        self._integrate(v, lambda sine, _: np.ones_like(sine), found)
+        return np.sign(turn) * found.reshape(shape) / self.span
+
+    def turn_at(self, share: float) -> float:
+        """The angle of the law from k* at k - 1/2."""
+        real = self.span * (0.5 - abs(share))
+        v = self._turn_of(np.array([1.0 - real if self.late else real]))
+        return math.copysign(self.end_turn - float(v[0]), share)
+
+    def _deficit(self, v: Reals, velocity: Reals) -> Reals:
         """B - b of the real law; near k* as the integral of its acceleration up to there."""
         found = np.asarray(self.law.velocity_peak - velocity)
-        near = np.abs(self.place - real) <= _NEAR
+        return self._integrate(v, lambda sine, cosine: self._side * self.law.rates_at(sine, cosine)[2], found)
+
+    def _integrate(self, v: Reals, of: Callable[[Reals, Reals], Reals], found: Reals) -> Reals:
+        """Put integrals over the time from v to k* where v is near k*: their digits are right down to there."""
+        near = self.end_turn - v <= _NEAR
         if near.any():
-            at = real[near]
+            at = v[near]
             nodes, weights = gauss_legendre(12)
-            half = 0.5 * (self.place - at)
-            places = (0.5 * (self.place + at))[:, None] + half[:, None] * nodes
-            acceleration = self.law.invariants(np.clip(places, 0.0, 1.0).ravel(), 2)[2].reshape(places.shape)
-            found[near] = half * np.sum(acceleration * weights, axis=1)
+            half = 0.5 * (self.end_turn - at)
+            places = (0.5 * (self.end_turn + at))[:, None] + half[:, None] * nodes
+            sine, cosine = self._side * np.cos(places), np.sin(places)
+            found[near] = half * np.sum(of(sine, cosine) * self.law.pace(sine, cosine) * weights, axis=1)
         return found
 
 
@@ -523,13 +603,7 @@ class SliderCam:
     @cached_property
     def middle(self) -> float:
         """k*, where the rocker is fastest and the roller on the line of centres."""
-        k = np.linspace(0.0, 1.0, 257)
-        top = int(np.argmax(self.law.invariants(k, 1)[1]))
-
-        def acceleration(at: float) -> float:
-            return float(self.law.invariants(np.array([at]), 2)[2][0])
-
-        return bracketed_root(acceleration, float(k[max(top - 1, 0)]), float(k[min(top + 1, 256)]))
+        return self.law.share_at(self.law.fastest_turn)
 
     @cached_property
     def halves(self) -> tuple[WideSwingCam, WideSwingCam]:

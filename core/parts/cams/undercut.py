@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Points, Reals
 
 _GRID = 17
 _STRETCH = 8
+_COARSE = 8
 _PAIRS = 1 << 14
 
 
@@ -75,8 +77,8 @@ def nearest(pitch: Points, profile: Points) -> tuple[int, int, float]:
     """The profile point and the pitch point that come nearest to each other, and their distance.
 
     Two stretches of `_STRETCH` points each are no nearer than their centres less the radii about these; all points are
-    compared where that is not more than the least distance of points of the same cam angle. scipy's k-d tree finds the
-    same, but to import it takes ten times as long as all of this.
+    compared where that is not more than the least distance of points of the same cam angle, stretches where it is not
+    of `_COARSE` of them. scipy's k-d tree finds the same, but to import it takes ten times as long as all of this.
 
     Raises
         ValueError - where a point is not finite
@@ -84,11 +86,8 @@ def nearest(pitch: Points, profile: Points) -> tuple[int, int, float]:
     known = float(np.abs(profile - pitch).min())
     if not math.isfinite(known):
         raise ValueError("the points of pitch curve and profile must be finite")
-    of_pitch, of_profile = _in_stretches(pitch), _in_stretches(profile)
-    (centre, radius), (other, reach) = _circles(of_pitch), _circles(of_profile)
-    apart = np.abs(other[:, None] - centre) - reach[:, None] - radius
-    rounding = 1e-14 * float(np.abs(centre).max() + radius.max() + known)
-    rows, columns = np.nonzero(apart <= known + rounding)
+    of_pitch, of_profile = _in_stretches(pitch, _STRETCH), _in_stretches(profile, _STRETCH)
+    rows, columns = _near(_circles(of_profile), _circles(of_pitch), known)
     found, last = (math.inf, 0, 0), len(pitch) - 1
     for start in range(0, len(rows), _PAIRS):
         some = slice(start, start + _PAIRS)
@@ -100,16 +99,35 @@ def nearest(pitch: Points, profile: Points) -> tuple[int, int, float]:
     return at, by, least
 
 
-def _in_stretches(points: Points) -> Points:
-    """The points in rows of `_STRETCH`, the last filled up with its last point."""
-    missing = -len(points) % _STRETCH
-    return np.concatenate((points, np.repeat(points[-1:], missing))).reshape(-1, _STRETCH)
+def _in_stretches(points: NDArray[Any], size: int) -> NDArray[Any]:
+    """The points in rows of so many, the last filled up with its last point."""
+    missing = -len(points) % size
+    return np.concatenate((points, np.repeat(points[-1:], missing))).reshape(-1, size)
 
 
-def _circles(stretches: Points) -> tuple[Points, Reals]:
-    """Centre and radius of a circle about each stretch."""
+_Circles: TypeAlias = tuple[Points, Reals]
+
+
+def _circles(stretches: Points, radii: Reals | float = 0.0) -> _Circles:
+    """Centre and radius of a circle about each stretch of points, or of circles with their radii."""
     centres = stretches.mean(axis=1)
-    return centres, np.abs(stretches - centres[:, None]).max(axis=1)
+    return centres, (np.abs(stretches - centres[:, None]) + radii).max(axis=1)
+
+
+def _near(one: _Circles, other: _Circles, most: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs of circles that are no farther apart; first of circles about some of them each."""
+    (centre, radius), (to, reach) = one, other
+    rounding = 1e-14 * float(np.abs(to).max() + reach.max() + most)
+    about = [_circles(_in_stretches(c, _COARSE), _in_stretches(r, _COARSE)) for c, r in (one, other)]
+    (wide, wide_radius), (far, far_radius) = about
+    rows, columns = np.nonzero(np.abs(wide[:, None] - far) - wide_radius[:, None] - far_radius <= most + 2.0 * rounding)
+    within = np.arange(_COARSE)
+    rows = (rows[:, None] * _COARSE + within).repeat(_COARSE, axis=1).ravel()
+    columns = np.tile(columns[:, None] * _COARSE + within, (1, _COARSE)).ravel()
+    there = (rows < len(centre)) & (columns < len(to))
+    rows, columns = rows[there], columns[there]
+    close = np.abs(centre[rows] - to[columns]) - radius[rows] - reach[columns] <= most + rounding
+    return rows[close], columns[close]
 
 
 def _deepest(

@@ -50,6 +50,16 @@ class Harmonic:
         self.swing = swing
         self.velocity_peak = 0.5 * math.pi
         self.middle_jerk = -0.5 * math.pi**3
+        self.end_turn = 0.5
+
+    def view_at(self, turn: np.ndarray) -> MiddleView:
+        return self.middle_view(0.5 + turn)
+
+    def share_from_middle(self, turn: np.ndarray) -> np.ndarray:
+        return turn
+
+    def turn_at(self, share: float) -> float:
+        return share
 
     def middle_view(self, k: np.ndarray) -> MiddleView:
         from_middle = math.pi * (k - 0.5)
