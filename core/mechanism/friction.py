@@ -32,7 +32,7 @@ from gearlink.core.mechanism.joints import (
 )
 from gearlink.core.mechanism.links import FRAME, Mechanism, rates
 from gearlink.core.mechanism.rates import dot, sense_of
-from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.arrays import Mask, Points, Reals
 
 _PASSES, _PLAIN, _KEPT = 60, 4, 5
 _SETTLED, _NEARLY, _BEYOND = 1e-14, 1e-11, 1e6
@@ -210,9 +210,9 @@ class Coefficients:
                 yield Unit(each.name, _against(each.second, each.first, direction), share)
             elif isinstance(each, Rack):
                 turned = direction * dot(each.along, -1j * each.normal)  # the way of the pitch point along the rack
-                yield Unit(each.name, _against(each.second, each.carrier, direction), share * each.mate_radius, turned)
-                along, at = turned * each.along, each.pitch_point
-                acts = [Act(each.first, -along, at, 0.0), Act(each.carrier, along, at, 0.0)]
+                yield Unit(each.name, _against(each.second, each.first, direction), share * each.mate_radius, turned)
+                along, couple = turned * each.along, each.mate_radius * direction
+                acts = [Act(each.first, -along, each.pitch_point, couple), Act(each.second, along, each.center, 0.0)]
                 yield Unit(each.name, acts, share, -turned)
             elif isinstance(each, ToothDrive):  # where its gear drives the wheel, the loss is on the wheel: `_driven`
                 turned = np.where(each.moves, direction, 0.0)
@@ -233,8 +233,6 @@ def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Re
     """Relative turning of a pin, travel of a guide [mm], rolling of a mesh; per input angle, or its derivative."""
     if isinstance(connection, Guide):
         return _travel(mechanism, connection, order)
-    if isinstance(connection, Rack):
-        return rates(mechanism, connection.carrier, connection.second, order)
     if isinstance(connection, Mesh):
         return rates(mechanism, connection.carrier, connection.first, order)
     return rates(mechanism, connection.first, connection.second, order)
@@ -481,11 +479,23 @@ def losses(found: Reactions, friction: Coefficients, speed: float) -> Reals:
 
 
 def _power(joint: Connection, mechanism: Mechanism, act: Act) -> Reals:
-    """Power of a force and a couple on a link per input angle; of teeth as seen from the link that holds the axes."""
-    total = np.zeros(mechanism.rows)
-    seen = ((act.on, 1.0), (joint.carrier, -1.0)) if isinstance(joint, (Mesh, Rack)) else ((act.on, 1.0),)
-    for name, sign in seen:
-        if (link := mechanism.link(name)) is not None:
-            rate = link.origin.first + 1j * link.turn.first * (act.at - link.origin.value)
-            total += sign * (dot(act.force, rate) + act.couple * link.turn.first)
-    return total
+    """Power of a force and a couple on a link per input angle; of teeth as seen from where the axes rest.
+
+    Of two gears that is their carrier; of a rack what keeps its direction and goes with the pinion's centre.
+    """
+    moved, turned = _rate(mechanism, act.on, act.at)
+    if isinstance(joint, Mesh):
+        back, turn = _rate(mechanism, joint.carrier, act.at)
+        moved, turned = moved - back, turned - turn
+    elif isinstance(joint, Rack):
+        center, _ = _rate(mechanism, joint.second, joint.center)
+        turn = _rate(mechanism, joint.first, act.at)[1]
+        moved, turned = moved - center - 1j * turn * (act.at - joint.center), turned - turn
+    return np.asarray(dot(act.force, moved) + act.couple * turned)
+
+
+def _rate(mechanism: Mechanism, name: str, at: Points) -> tuple[Points, Reals]:
+    """Velocity of a point that goes with a link [mm], and the turning of the link; per input angle."""
+    if (link := mechanism.link(name)) is None:
+        return np.zeros(mechanism.rows, dtype=np.complex128), np.zeros(mechanism.rows)
+    return link.origin.first + 1j * link.turn.first * (at - link.origin.value), link.turn.first

@@ -144,7 +144,6 @@ class Rack:
     mate_radius: float
     tangent: float
     radius: float = field(default=0.0, init=False)
-    carrier: str = FRAME
 
     @property
     def pitch_point(self) -> Points:

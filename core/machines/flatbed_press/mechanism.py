@@ -218,8 +218,8 @@ class _Press:
             Pin("F", "EF", "carriage", f),
             Pin("F_pinion", "carriage", "pinion", f),
             *(Guide(f"guide_{name}", FRAME, name, links[name].origin.value, -1j) for name in SLIDING if name in links),
-            Rack("rack_lower", lower, "pinion", f, -1j, self.side + 0j, r8, tangent, carrier="carriage"),
-            Rack("rack_upper", "bed", "pinion", f, -1j, -self.side + 0j, r8, tangent, carrier="carriage"),
+            Rack("rack_lower", lower, "pinion", f, -1j, self.side + 0j, r8, tangent),
+            Rack("rack_upper", "bed", "pinion", f, -1j, -self.side + 0j, r8, tangent),
         ]
 
     def _follower_joint(self, links: dict[str, Link], cam: Travel) -> Connection:

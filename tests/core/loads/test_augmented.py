@@ -178,16 +178,25 @@ class Augmented:
         return load
 
     def _put_on_driven(self, load: Any, teeth: Any, force: complex, efficiency: float) -> None:
-        """Take from the gear that the teeth drive, as seen from the link with the axes, what the mesh loses."""
+        """Take from the gear that the teeth drive, as seen from where the axes rest, what the mesh loses."""
         at = complex(teeth.pitch_point[0])
-        rolling = self._velocity(teeth.second, at) - self._velocity(teeth.carrier, at)
+        rolling = self._velocity(teeth.second, at)
+        if isinstance(teeth, Rack):  # seen along with the pinion's centre, in the directions of the rack
+            center, held = complex(teeth.center[0]), teeth.first
+            rolling -= self._velocity(teeth.second, center) + 1j * self._turn(held) * (at - center)
+        else:
+            held = teeth.carrier
+            rolling -= self._velocity(held, at)
         power = (force.conjugate() * rolling).real * self.machine.speed
         driven = teeth.second if power > 0.0 else teeth.first
         lost = (1.0 - efficiency) * abs(power) / self.machine.speed
         if isinstance(teeth, Rack) and driven == teeth.first:
-            self._put(load, driven, teeth.carrier, force=-lost * rolling / abs(rolling) ** 2, at=at)
+            less = -lost * rolling / abs(rolling) ** 2
+            moment = float(cross(at - center, less))
+            self._put(load, driven, FRAME, force=less, couple=-moment, at=at)
+            self._put(load, teeth.second, FRAME, force=-less, at=center)
         else:
-            self._put(load, driven, teeth.carrier, couple=-lost / (self._turn(driven) - self._turn(teeth.carrier)))
+            self._put(load, driven, held, couple=-lost / (self._turn(driven) - self._turn(held)))
 
     def _turn(self, name: str) -> float:
         return 0.0 if name == FRAME else float(self.rate[3 * self.names.index(name) + 2])
@@ -260,6 +269,21 @@ def test_friction_of_racks_against_the_augmented_system(degrees: float) -> None:
     """The pinion drives the bed and is driven by it, the lower rack likewise."""
     friction = RUBBING | {"pins": 0.0}
     _compare(Augmented(factory.design("loaded_press", command="loads", loads__friction=friction), np.radians(degrees)))
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize("side", ["opposite", "same"])
+@pytest.mark.parametrize("speed", [70.0, -70.0])
+@pytest.mark.parametrize("phi", [0.6, 2.4, 4.1])
+def test_friction_of_racks_on_a_crank(side: str, speed: float, phi: float) -> None:
+    """The axis of the pinion travels, between a rack that is fixed and one that moves."""
+    spec = {"kind": "slider-crank", "stroke": 210.0, "rod": 420.0, "offset": 30.0}
+    racks = {"module": 5.0, "fixed": 42, "moving": 30, "side": side}
+    masses = {"rack": {"mass": 180.0}, "pinion": {"mass": 12.0, "inertia": 0.07}}
+    loads = {"speed": speed, "friction": RUBBING, "links": masses, "forces": [{"on": "rack", "force": 350.0}]}
+    design = factory.design(spec, command="loads", racks=racks, loads=loads)
+    _compare(Augmented(design, phi))
+    assert design.power_identity < 1e-9
 
 
 def _compare(augmented: Augmented) -> None:
