@@ -7,6 +7,7 @@ the unloading devices need.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -68,6 +69,17 @@ def complete_integral(complement: float) -> float:
     return math.pi / (2.0 * ladder[-1][0])
 
 
+def _ladder(modulus: float, complement: float) -> Sequence[tuple[float, float, float]]:
+    """The ladder of a modulus; of a column of them one of columns, where last rungs are repeated if some have more."""
+    if not isinstance(modulus, np.ndarray):
+        return landen_ladder(modulus, complement)
+    pairs = zip(modulus.ravel().tolist(), np.ravel(complement).tolist(), strict=True)
+    ladders = [landen_ladder(*pair) for pair in pairs]
+    most = max(map(len, ladders))
+    rungs = np.array([(*ladder, *ladder[-1:] * (most - len(ladder))) for ladder in ladders])
+    return [tuple(rungs[:, rung, i, None] for i in range(3)) for rung in range(most)]
+
+
 def incomplete_integral(sine: Reals, cosine: Reals, modulus: float, complement: float) -> Reals:
     """Incomplete elliptic integral of the first kind F(phi, k) for amplitudes of the first quadrant.
 
@@ -75,7 +87,7 @@ def incomplete_integral(sine: Reals, cosine: Reals, modulus: float, complement: 
 
     Parameters
         sine, cosine : (N,) arrays - proportional to sin phi and cos phi, both >= 0
-        modulus, complement : float - k and k'
+        modulus, complement : float - k and k'; of columns a row for each
     Returns
         F : (N,) array
     Notes
@@ -88,7 +100,7 @@ def incomplete_integral(sine: Reals, cosine: Reals, modulus: float, complement: 
     Source
         Abramowitz and Stegun 17.6.8
     """
-    ladder = landen_ladder(modulus, complement)
+    ladder = _ladder(modulus, complement)
     phi = np.arctan2(sine, cosine)
     for a, b, _ in ladder[:-1]:
         step = np.arctan2(b * sine, a * cosine)

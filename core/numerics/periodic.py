@@ -6,8 +6,9 @@ The cosine series goes with the rule. Where a rising function has a given value 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -50,11 +51,11 @@ def _midpoints(span: float, nodes: int) -> Reals:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CosineSeries:
-    """f(z) = sum f_j cos(pi j z/span) on [0, span], with its integral.
+    """f(z) = sum f_j cos(pi j z/span) on [0, span], with its integral; of many, whose span is a column, a row for each.
 
     Fields
         span : float - the interval
-        coefficients : (n,) array - f_0, f_1 ...
+        coefficients : (n,) array - f_0, f_1 ..., or a row of as many for each
         nodes : int - nodes of the rule that gave them
         difference : float - relative change of the integral from half as many nodes
     """
@@ -71,15 +72,33 @@ class CosineSeries:
 
     def integral(self, z: Reals) -> Reals:
         """Integral from 0 to z, of small relative error also for small z (times sum |f_j| over f(0))."""
+        if self.coefficients.ndim > 1:
+            return self._integrals(z)
         wave = np.arange(1, len(self.coefficients)) * (math.pi / self.span)
         weights = self.coefficients[1:] / wave
-        result = np.empty_like(z)
-        for start in range(0, len(z), _BLOCK):
-            part = z[start : start + _BLOCK]
+        places, result = z.ravel(), np.empty(z.size)
+        for start in range(0, z.size, _BLOCK):
+            part = places[start : start + _BLOCK]
             # no product of matrices, which rounds a row otherwise among other rows
             waves = np.sin(np.outer(part, wave)) * weights
             result[start : start + _BLOCK] = self.coefficients[0] * part + waves.sum(axis=1)
-        return result
+        return result.reshape(z.shape)
+
+    def _integrals(self, z: Reals) -> Reals:
+        """Of many."""
+        wave = np.arange(1, self.coefficients.shape[1]) * (math.pi / self.span)
+        found, terms = self.coefficients[:, :1] * z, 0.0
+        for j, weight in enumerate((self.coefficients[:, 1:] / wave).T):
+            terms = terms + weight[:, None] * np.sin(z * wave[:, j : j + 1])
+        return np.asarray(found + terms)
+
+    @classmethod
+    def of_many(cls, series: Sequence[CosineSeries]) -> CosineSeries:
+        """Some series as one."""
+        most = max(len(one.coefficients) for one in series)
+        rows = [np.pad(one.coefficients, (0, most - len(one.coefficients))) for one in series]
+        spans: Any = np.array([[one.span] for one in series])
+        return cls(spans, np.array(rows), max(one.nodes for one in series), max(one.difference for one in series))
 
     def from_far_end(self) -> CosineSeries:
         """The same function with z counted back from the end of the span."""

@@ -46,6 +46,7 @@ class StrokeLaw(Protocol):
     def end_turn(self) -> float: ...
     def view_at(self, turn: Reals) -> MiddleView: ...
     def share_from_middle(self, turn: Reals) -> Reals: ...
+    def turn_near(self, share: float) -> float: ...
     def turn_at(self, share: float) -> float: ...
 
 
@@ -152,6 +153,10 @@ class PitchCurve:
         sine = np.sin(self.sense * state.psi)
         return np.arctan2((state.s - state.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
 
+    def acceleration(self, state: CurveState) -> Reals:
+        """|c| of the law."""
+        return np.asarray(np.abs(state.second) * self.cycle_angle**2 / self.law.swing)
+
     def loop_measure(self, state: CurveState) -> Reals:
         """(dTheta/dtheta) rho^2/(1 - cos phi) = (1 - lambda) e/s + lambda (1 + A), away from mid-swing."""
         result: Reals = (1.0 - self.ratio) * state.e / state.s + self.ratio * (1.0 + state.a)
@@ -165,7 +170,7 @@ Step: TypeAlias = Callable[["Reals"], tuple["Reals", "Reals"]]
 
 SMALLEST = 1e-4
 """Below this share of the stroke the leading order, good to the square of the zone, is nearer than the solution."""
-_SHRINK = 0.7
+SHRINK = 0.7
 _SETTLED = 1e-13
 _BESIDE = 0.01
 """Share of the way to mid-swing below which a step is too short to tell the bend between its ends."""
@@ -192,12 +197,10 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float, noise
     """
 
     def clearance(t: Reals) -> Reals:
-        length, depth = step(t)
-        room: Reals = length * length - 2.0 * roller_radius * depth
-        return room
+        return _room(step(t), roller_radius)
 
-    nearest = min(_SHRINK * far, 0.01 * estimate)
-    t: Reals = np.float64(far) * np.power(_SHRINK, np.arange(math.ceil(math.log(nearest / far, _SHRINK)) + 1))
+    nearest = min(SHRINK * far, 0.01 * estimate)
+    t: Reals = np.float64(far) * np.power(SHRINK, np.arange(math.ceil(math.log(nearest / far, SHRINK)) + 1))
     room = clearance(t)
     if room[0] <= 0.0:
         most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
@@ -258,7 +261,7 @@ def end_of_contact(cam: WideSwingCam) -> tuple[float, float]:
     estimate = SMALLEST if smooth else min(cam.transition_zone_estimate, 0.5)
     if estimate < SMALLEST:
         return 0.5 - estimate, law.turn_at(-estimate)
-    turn = covered(partial(step_before_middle, cam), cam.roller_radius, law.end_turn, law.turn_at(estimate))
+    turn = covered(partial(step_before_middle, cam), cam.roller_radius, law.end_turn, law.turn_near(estimate))
     end = 0.5 + float(law.share_from_middle(np.array([-turn]))[0])
     if smooth and turn > 0.0:
         end = _cut_on_the_way(cam, end)
@@ -272,9 +275,9 @@ def _cut_on_the_way(cam: WideSwingCam, end: float) -> float:
     def room(k: float) -> float:
         return roller_before_middle(cam, k) - cam.roller_radius
 
-    high, low = end, _SHRINK * end
+    high, low = end, SHRINK * end
     while room(low) <= 0.0 and low > SMALLEST:
-        high, low = low, _SHRINK * low
+        high, low = low, SHRINK * low
     return bracketed_root(room, low, high, tolerance=_SETTLED) if room(high) < 0.0 < room(low) else high
 
 
@@ -310,6 +313,17 @@ def middle_step(cam: WideSwingCam, t: Reals) -> tuple[Reals, Reals]:
 def step_before_middle(cam: WideSwingCam, turn: Reals) -> tuple[Reals, Reals]:
     """The same from angles of the law before mid-swing."""
     return _step_to_middle(cam, cam.curve.timed_state_at(-turn))
+
+
+def room_before_middle(cam: WideSwingCam, turn: Reals) -> Reals:
+    """How far the profile at angles of the law before mid-swing is from the roller there: |d|^2 + 2 r_p d n [mm^2]."""
+    return _room(step_before_middle(cam, turn), cam.roller_radius)
+
+
+def _room(step: tuple[Reals, Reals], roller_radius: float) -> Reals:
+    length, depth = step
+    room: Reals = length * length - 2.0 * roller_radius * depth
+    return room
 
 
 def _step_to_middle(cam: WideSwingCam, state: CurveState) -> tuple[Reals, Reals]:
@@ -603,11 +617,11 @@ class WideSwingCam:
         Raises
             NoSolution - for a profile that does not exist, or where the roller at mid-swing covers its start
         """
-        end, _ = self._contact_end
+        end, _ = self.contact_end
         return (0.0, end), (1.0 - end, 1.0)
 
     @cached_property
-    def _contact_end(self) -> tuple[float, float]:
+    def contact_end(self) -> tuple[float, float]:
         """Where the roller leaves the profile before mid-swing: fraction of the stroke, and angle of the law."""
         self.require_profile()
         return end_of_contact(self)
@@ -640,10 +654,10 @@ class WideSwingCam:
         """
         if self._middle_gap != 0.0:
             return math.inf if self._middle_gap > 0.0 else -math.inf
-        return min(self._least_loop_measure, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
+        return min(self.least_loop_measure, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
 
     @cached_property
-    def _least_loop_measure(self) -> float:
+    def least_loop_measure(self) -> float:
         """Minimum of it before mid-swing; nearer than a thousandth it is as good as that at mid-swing."""
         curve, end = self.curve, self.law.end_turn
         return minimum_over(lambda turn: curve.loop_measure(curve.state_at(turn)), -end, -1e-3 * end, samples=256).value
@@ -681,6 +695,28 @@ class WideSwingCam:
             )
 
     @cached_property
+    def pressing(self) -> tuple[Extreme, Extreme]:
+        """Maximum and minimum of the rocker's acceleration |c|/cos delta where the roller touches the profile.
+
+        Raises
+            NoSolution - where it touches nothing
+        """
+        curve = self.curve
+
+        def press(turn: Reals) -> Reals:
+            state = curve.state_at(turn)
+            found: Reals = curve.acceleration(state) / np.cos(curve.pressure_angle(state))
+            return found
+
+        most, least = extremes_over([(press, True), (press, False)], *self._touching, samples=128)
+        return most, least
+
+    @property
+    def _touching(self) -> tuple[float, float]:
+        """Angles of the law before mid-swing between which the roller touches the profile."""
+        return -self.law.end_turn, self.contact_end[1]
+
+    @cached_property
     def max_pressure_angle(self) -> float:
         """Largest magnitude of the pressure angle where the roller touches the profile [rad].
 
@@ -689,17 +725,17 @@ class WideSwingCam:
         Notes
             With a rocker radius below that of (18), (24) the contact lasts to mid-swing, where the angle is 90 deg.
         """
-        return self._tops[0].value
+        return self.tops[0].value
 
     @cached_property
-    def _tops(self) -> list[Extreme]:
+    def tops(self) -> list[Extreme]:
         """Maximum pressure angle and bulge where the roller touches the profile, of one state of the curve."""
         state = kept_last(self.curve.state_at)
         wanted = [
             (lambda turn: np.abs(self.curve.pressure_angle(state(turn))), True),
             (lambda turn: self._bulge(state(turn)), True),
         ]
-        return extremes_over(wanted, -self.law.end_turn, self._contact_end[1], samples=128)
+        return extremes_over(wanted, *self._touching, samples=128)
 
     def pressure_angle(self, k: Reals) -> Reals:
         """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
@@ -718,7 +754,7 @@ class WideSwingCam:
             In the transition zone the radius falls to zero at mid-swing whatever the design. Infinite where the
             curve bulges nowhere outside it.
         """
-        peak = self._tops[1].value
+        peak = self.tops[1].value
         return 1.0 / peak if peak > 0.0 else math.inf
 
     def bulge(self, k: Reals) -> Reals:

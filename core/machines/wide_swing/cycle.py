@@ -21,7 +21,7 @@ from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam
 from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import extremes_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.cams.undercut import Undercut, undercut
 
@@ -267,17 +267,16 @@ class ClosedCam:
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """The joints at the start and end of its own stroke and of the other stroke, in the order of the turn."""
-        places = ((0.0, _TURN, 3, 0), *((self.starts[i], self.starts[i], i - 1, i) for i in (1, 2, 3)))
-        return tuple(self._joint(*place) for place in places)
-
-    def _joint(self, t: float, t_before: float, before: int, after: int) -> Joint:
         curve, size = self.cam.curve, self.cam.center_distance
-        states = [self.state(number, np.array([at])) for number, at in ((before, t_before), (after, t))]
-        along = [complex(curve.normal(state)[0]) for state in states]
-        bends = [float(curve.curvature(state)[0]) / size for state in states]
-        radii = [1.0 / bend if bend else math.inf for bend in bends]
-        radius = abs(complex(curve.pitch(states[1])[0])) * size
-        return Joint(t, radius, float(np.angle(along[1] / along[0])), *radii)
+        ends = [self.state(i, np.array(self.starts[i : i + 2])) for i in range(4)]
+        along = [curve.normal(state).tolist() for state in ends]
+        bends = [(curve.curvature(state) / size).tolist() for state in ends]
+        radii = [[1.0 / bend if bend else math.inf for bend in pair] for pair in bends]
+        starts = [abs(complex(curve.pitch(state)[0])) * size for state in ends]
+        return tuple(
+            Joint(self.starts[i], starts[i], cmath.phase(along[i][0] / along[i - 1][1]), radii[i - 1][1], radii[i][0])
+            for i in range(4)
+        )
 
     @cached_property
     def cut(self) -> Undercut:
@@ -307,37 +306,33 @@ class ClosedCam:
 
         minimum (R - r_p)/share of the clearance there, R the curvature radius where the roller's path bulges
         """
-        cam, roller = self.cam, self.cam.roller_radius
-
-        def both(place: Reals) -> tuple[Reals, Reals]:
-            state, t = self._by_turn(2, place)
-            bend = np.maximum(0.0, cam.sense / cam.center_distance * cam.curve.curvature(state))
-            with np.errstate(divide="ignore", invalid="ignore"):
-                return bend, self._share(t) * bend / (1.0 - roller * bend)
-
-        of = kept_last(both)
-        wanted = [(lambda place, i=i: of(place)[i], True) for i in (0, 1)]
-        sharpest, worst = (each.value for each in extremes_over(wanted, *self._half_of_free, samples=128))
-        if roller * sharpest >= 1.0:
+        sharpest, worst, _ = (each.value for each in self.free)
+        if self.cam.roller_radius * sharpest >= 1.0:
             return 0.0
         return 1.0 / worst if worst > 0.0 else math.inf
 
-    @property
-    def _half_of_free(self) -> tuple[float, float]:
-        """The first half of the free sector, of which the other is the mirror image."""
-        return self.starts[2], 0.5 * (self.starts[2] + self.starts[3])
+    @cached_property
+    def free(self) -> tuple[Extreme, ...]:
+        """Extremes over the free sector: maximum bulge of the roller's path [1/mm] and of its share/(R - r_p), minimum
+        distance of the contour from the axis [mm]; of its first half, of which the other is the mirror image."""
+        cam, roller = self.cam, self.cam.roller_radius
+
+        def each(place: Reals) -> tuple[Reals, Reals, Reals]:
+            state, t = self._by_turn(2, place)
+            bend = np.maximum(0.0, cam.sense / cam.center_distance * cam.curve.curvature(state))
+            with np.errstate(divide="ignore", invalid="ignore"):
+                worst = self._share(t) * bend / (1.0 - roller * bend)
+            return bend, worst, np.abs(self._contour(2, state, t, self._pitch(state)))
+
+        of, half = kept_last(each), (self.starts[2], 0.5 * (self.starts[2] + self.starts[3]))
+        wanted = [(lambda place, i=i: of(place)[i], i < 2) for i in range(3)]
+        return tuple(extremes_over(wanted, *half, samples=128))
 
     @cached_property
     def least_radius(self) -> float:
         """Minimum distance of the contour from the cam axis [mm]."""
         slot = self.cam.middle_radius - self.cam.sense * self.cam.roller_radius
-
-        def nearness(place: Reals) -> Reals:
-            state, t = self._by_turn(2, place)
-            return np.abs(self._contour(2, state, t, self._pitch(state)))
-
-        free = minimum_over(nearness, *self._half_of_free, samples=128).value
-        return min(free, slot, self.rest_radius - self.cam.sense * self.cam.roller_radius)
+        return min(self.free[2].value, slot, self.rest_radius - self.cam.sense * self.cam.roller_radius)
 
 
 # The whole cycle of a wide-swing mechanism: working stroke, far dwell, return stroke, near dwell, and its cams

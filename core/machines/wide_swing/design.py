@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter
@@ -797,13 +797,22 @@ class Unloading:
         """
         from gearlink.core.machines.wide_swing.strokes import middle_of
 
+        torque = self.motion.torque(k) * np.where(k < middle_of(cam), 1.0, -1.0)
+        force: Reals = self._pressing(cam, speed_ratio, need) * torque / np.cos(cam.pressure_angle(k))
+        return force
+
+    def _pressing(self, cam: AnyCam, speed_ratio: Any, need: Any) -> Any:
+        """Force along the normal by torque over J gamma/T^2 and cos delta [N]."""
         motion = self.motion
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
         scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
-        torque = motion.torque(k) * np.where(k < middle_of(cam), 1.0, -1.0)
-        excess = self.size.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0)
-        force: Reals = scale * excess * torque / np.cos(cam.pressure_angle(k))
-        return force
+        return scale * (self.size.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0))
+
+    def even_contact_force(self, cam: WideSwingCam) -> float:
+        """Maximum force of the roller on a cam that turns evenly, at the design speed [N]."""
+        pressing: float = self._pressing(cam, 1.0, 1.0)
+        most, least = cam.pressing
+        return max(pressing * most.value, pressing * least.value)
 
     def dwell_force(self, cams: Iterable[AnyCam]) -> float:
         """Maximum force of a roller on its cam during the rests, when the cam bears the whole device [N].
@@ -1092,6 +1101,8 @@ class WideSwingDesign(Design):
     @cached_property
     def contact_force(self) -> float:
         """Maximum force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
+        if self.spec.slider is None and self.spec.drive is None:
+            return self._even_contact_force
         found = []
         for cam in self.cams.values():
             if cam is self.cam or self.has_zone(cam):
@@ -1101,6 +1112,16 @@ class WideSwingDesign(Design):
                     wanted.append((self._force_home, True))
                 found += extremes_of_parts(wanted, self.contact_of(cam), samples=128)
         return max(each.value for of_part in found for each in of_part)
+
+    @property
+    def _even_contact_force(self) -> float:
+        """The same of cams that turn evenly: alike on both sides of mid-swing."""
+        found = []
+        for cam in (self.even_cam, self.return_cam):
+            if cam is self.even_cam or (cam is not None and self.has_zone(cam)):
+                self.contact_of(cam)
+                found.append(self.unloading.even_contact_force(cam))
+        return max(found)
 
     def _force_home(self, k: Reals) -> Reals:
         """The same on the way home, where an oscillating cam stands as at k."""
@@ -1596,6 +1617,16 @@ class WideSwingDesign(Design):
         return 25.0 if self.spec.slider is not None else 7.0 if self.spec.cycle is not None else 3.5
 
     candidates, varied = remedies.candidates, remedies.varied
+
+    at_once = 64
+    alone = frozenset(("cycle-angles", "unloader-turnability", "swing-range", "device-pressure", "force-closure"))
+
+    @classmethod
+    def find_together(cls, designs: Sequence[WideSwingDesign], names: Sequence[str]) -> None:
+        """Cams that turn evenly are sought together."""
+        from gearlink.core.machines.wide_swing.together import find_together
+
+        find_together(designs, frozenset(name.partition("[")[0] for name in names))
 
     # Outlines
 

@@ -326,6 +326,10 @@ class ElasticLaw:
         scale = self.swing * self._rate
         return np.sign(turn) * self._time_of(np.abs(turn), from_middle=True) / scale
 
+    def turn_near(self, share: float) -> float:
+        """About the pendulum angle at k - 1/2, by the pace at mid-swing."""
+        return share * self.swing * self._rate / float(self.slowness(np.zeros(1), np.ones(1))[0])
+
     def turn_at(self, share: float) -> float:
         """The pendulum angle at k - 1/2."""
         sine, cosine = self.pendulum(np.array([0.5 - abs(share)]))

@@ -247,10 +247,15 @@ class SliderLaw:
     def _clock_from_end(self) -> CosineSeries:
         return self.clock.from_far_end()
 
-    @property
+    @cached_property
+    def _total(self) -> float:
+        """gamma sqrt(N)."""
+        return self.clock.total
+
+    @cached_property
     def energy_parameter(self) -> float:
         """N = 2 P r_d T^2/(J_ref gamma^2) [-]."""
-        return (self.clock.total / self.swing) ** 2
+        return (self._total / self.swing) ** 2
 
     @cached_property
     def middle_place(self) -> float:
@@ -296,7 +301,7 @@ class SliderLaw:
 
     def share_at(self, v: float) -> float:
         """k at an angle v from the start."""
-        return float(self._time_of(np.array([v]), self.clock)[0]) / self.clock.total
+        return float(self._time_of(np.array([v]), self.clock)[0]) / self._total
 
     def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity and acceleration invariants of the rocker.
@@ -365,11 +370,11 @@ class SliderLaw:
 
     def pace(self, sine: Reals, cosine: Reals) -> Reals:
         """|dk/du| from sin u and cos u."""
-        return self._slowness(sine, cosine) / self.clock.total
+        return self._slowness(sine, cosine) / self._total
 
     def share_from(self, v: Reals, *, late: bool) -> Reals:
         """Fraction of the stroke to an angle v counted from its start, or back from its end."""
-        return self._time_of(v, self._clock_from_end if late else self.clock) / self.clock.total
+        return self._time_of(v, self._clock_from_end if late else self.clock) / self._total
 
     def _rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
         g, parameter = self.geometry, self.energy_parameter
@@ -473,7 +478,7 @@ class HalfLaw:
     @cached_property
     def end_turn(self) -> float:
         """Angle of the law from k* to its end of the stroke [rad]."""
-        return float(self._turn_of(np.array([self.place]))[0])
+        return math.pi - self.law.fastest_turn if self.late else self.law.fastest_turn
 
     def _turn_of(self, real: Reals) -> Reals:
         """Angle v from its end of the stroke at fractions of the real one."""
@@ -522,7 +527,7 @@ class HalfLaw:
         k = np.asarray(k, dtype=np.float64)
         folded = np.where(k > 0.5, 1.0 - k, k) * self.span
         v = self._turn_of(1.0 - folded if self.late else folded)
-        return self._view(np.minimum(v, self.end_turn), k > 0.5)
+        return self._view(np.where(k == 0.5, self.end_turn, np.minimum(v, self.end_turn)), k > 0.5)
 
     def view_at(self, turn: Reals) -> MiddleView:
         """The same at angles of the law from k*, negative before it."""
@@ -540,11 +545,15 @@ class HalfLaw:
 
     def share_from_middle(self, turn: Reals) -> Reals:
         """k - 1/2 of this half's symmetric stroke at angles of the law from k*."""
-        v, shape = self.end_turn - np.abs(turn).ravel(), turn.shape
-        whole = self.law.share_from(np.array([self.end_turn]), late=self.late)
+        v = self.end_turn - np.abs(turn)
+        whole = self.law.share_from(np.atleast_1d(self.end_turn), late=self.late)
         found = np.asarray(whole - self.law.share_from(v, late=self.late))
-        self._integrate(v, lambda sine, _: np.ones_like(sine), found)
-        return np.sign(turn) * found.reshape(shape) / self.span
+        return np.sign(turn) * self._integrate(v, lambda sine, _: np.ones_like(sine), found) / self.span
+
+    def turn_near(self, share: float) -> float:
+        """About the angle of the law from k* at k - 1/2, by the pace there."""
+        turn = np.array([self.end_turn])
+        return share * self.span / float(self.law.pace(self._side * np.cos(turn), np.sin(turn))[0])
 
     def turn_at(self, share: float) -> float:
         """The angle of the law from k* at k - 1/2."""
@@ -561,12 +570,16 @@ class HalfLaw:
         """Put integrals over the time from v to k* where v is near k*: their digits are right down to there."""
         near = self.end_turn - v <= _NEAR
         if near.any():
-            at = v[near]
+            some = np.flatnonzero(near.any(axis=tuple(range(near.ndim - 1))))
+            at = v[..., some]
             nodes, weights = gauss_legendre(12)
             half = 0.5 * (self.end_turn - at)
-            places = (0.5 * (self.end_turn + at))[:, None] + half[:, None] * nodes
-            sine, cosine = self._side * np.cos(places), np.sin(places)
-            found[near] = half * np.sum(of(sine, cosine) * self.law.pace(sine, cosine) * weights, axis=1)
+            places = (0.5 * (self.end_turn + at))[..., None] + half[..., None] * nodes
+            flat = places.reshape(*at.shape[:-1], -1)
+            sine, cosine = self._side * np.cos(flat), np.sin(flat)
+            values = (of(sine, cosine) * self.law.pace(sine, cosine)).reshape(places.shape)
+            integrals = half * np.sum(values * weights, axis=-1)
+            found[..., some] = np.where(near[..., some], integrals, found[..., some])
         return found
 
 

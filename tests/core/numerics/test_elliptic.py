@@ -66,3 +66,12 @@ def test_sn_cn_keep_relative_accuracy_at_both_ends(complement: float) -> None:
 def test_modulus_outside_its_range(complement: float) -> None:
     with pytest.raises(NoSolution, match=r"complementary modulus .* \(0, 1\]"):
         landen_ladder(0.5, complement)
+
+
+def test_columns_of_moduli_give_a_row_for_each() -> None:
+    angles, complements = np.linspace(0.0, 0.5 * math.pi, 9), np.array([[each] for each in COMPLEMENTS])
+    moduli = np.array([[modulus(each)] for each in COMPLEMENTS])
+    found = incomplete_integral(np.sin(angles), np.cos(angles), moduli, complements)  # type: ignore[arg-type]
+    for row, complement in zip(found, COMPLEMENTS, strict=True):
+        alone = incomplete_integral(np.sin(angles), np.cos(angles), modulus(complement), complement)
+        np.testing.assert_allclose(row, alone, rtol=8 * ULP)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.numerics.periodic import cosine_series, midpoint_mean
+from gearlink.core.numerics.periodic import CosineSeries, cosine_series, midpoint_mean
 
 ULP = 2.0**-52
 
@@ -50,3 +50,13 @@ def test_far_end_counts_backwards() -> None:
 def test_function_that_does_not_settle() -> None:
     with pytest.raises(NoSolution, match="too sharp: specify less"):
         cosine_series(lambda z: np.sqrt(z), math.pi, "too sharp: specify less")
+
+
+def test_series_of_many_are_those_of_each() -> None:
+    one = cosine_series(bell, math.pi, "too sharp")
+    other = cosine_series(lambda z: 1.0 / (2.0 + np.cos(0.5 * z)), 2.0 * math.pi, "too sharp")
+    z = np.array([[0.1, 1.0, 3.0], [0.2, 2.0, 6.0]])
+    found = CosineSeries.of_many([one, other]).integral(z)
+    for row, series, places in zip(found, (one, other), z, strict=True):
+        np.testing.assert_allclose(row, series.integral(places), rtol=8 * ULP)  # terms are added in another order
+    np.testing.assert_array_equal(one.integral(z), [one.integral(row) for row in z])

@@ -61,6 +61,8 @@ class Harmonic:
     def turn_at(self, share: float) -> float:
         return share
 
+    turn_near = turn_at
+
     def middle_view(self, k: np.ndarray) -> MiddleView:
         from_middle = math.pi * (k - 0.5)
         return MiddleView(

@@ -19,6 +19,8 @@ from factory import changed, design, worked
 from pydantic import ValidationError
 
 from gearlink.core.machines.wide_swing.cycle import ClosedCam
+from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.parts.cams.undercut import undercut
 
 TURN = 2.0 * math.pi
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
@@ -310,3 +312,35 @@ cycle\
   working, far_dwell, return and near",
     ):
         design(changed(worked("wide_swing_cycle"), cycle=cycle))
+
+
+@pytest.mark.parametrize("clearance", [0.0, 0.5])
+def test_the_free_sector_by_the_cam_angle(clearance: float) -> None:
+    """Over the whole sector and the time, of which half of it is sought by the angle of the law."""
+    for closed in rocker(cam__free_clearance=clearance).cycle.contours.values():
+        place, roller = closed.starts[2:4], closed.cam.roller_radius
+
+        def bend(t: Any, closed: Any = closed) -> Any:
+            curvature = closed.cam.curve.curvature(closed.state(2, t))
+            return np.maximum(0.0, closed.cam.sense / closed.cam.center_distance * curvature)
+
+        sharpest, worst, least = (each.value for each in closed.free)
+        assert sharpest == pytest.approx(maximum_over(bend, *place, samples=256).value, rel=1e-12)
+        near = minimum_over(lambda t, c=closed: np.abs(c.contour_of(2, t)), *place, samples=256)  # type: ignore[misc]
+        assert least == pytest.approx(near.value, rel=1e-12)
+        ratio = maximum_over(
+            lambda t, c=closed, b=bend, r=roller: c._share(t) * b(t) / (1.0 - r * b(t)),
+            *place,
+            samples=256,  # type: ignore[misc]
+        )
+        assert worst == pytest.approx(ratio.value, rel=1e-11)
+
+
+@pytest.mark.parametrize("roller", [4.0, 40.0])
+def test_the_cut_by_the_cam_angle(roller: float) -> None:
+    for closed in twin(cam__roller_radius=roller).cycle.contours.values():
+        found = closed.cut
+        other = undercut(lambda t, c=closed: (c.pitch(t), c.contour(t)), roller)  # type: ignore[misc]
+        assert found.depth == pytest.approx(other.depth, abs=1e-8)
+        if found.depth > 1e-6:
+            assert found.cam_angle == pytest.approx(other.cam_angle, abs=1e-4)

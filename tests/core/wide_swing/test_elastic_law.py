@@ -296,3 +296,19 @@ def test_a_place_takes_little_more_than_one_step(monkeypatch: pytest.MonkeyPatch
     )
     law.evaluate(k[1:-1])
     assert sum(asked) < 1.1 * k.size
+
+
+@given(device=devices, swing=swings, k=st.floats(1e-6, 0.4999))
+@examples(40)
+def test_the_pendulum_angle_gives_the_motion_that_the_time_gives(device: Device, swing: float, k: float) -> None:
+    law = ElasticLaw(device, swing)
+    for share in (k - 0.5, 0.5 - k):
+        turn = np.array([law.turn_at(share)])
+        assert float(law.share_from_middle(turn)[0]) == pytest.approx(share, rel=1e-13)
+        seen, expected = law.view_at(turn), law.middle_view(np.array([0.5 + share]))
+        assert float(seen.angle[0]) == pytest.approx(float(expected.angle[0]), rel=1e-12)
+        assert float(seen.velocity[0]) == pytest.approx(float(expected.velocity[0]), rel=1e-9, abs=1e-12)
+        assert float(seen.deficit[0]) == pytest.approx(float(expected.deficit[0]), rel=1e-9)
+        assert float(seen.acceleration[0]) == pytest.approx(float(expected.acceleration[0]), rel=1e-8, abs=1e-12)
+    assert law.turn_near(1e-7) == pytest.approx(law.turn_at(1e-7), rel=1e-5)
+    assert law.share_from_middle(np.array([-law.end_turn, law.end_turn])) == pytest.approx([-0.5, 0.5], rel=1e-14)

@@ -250,3 +250,20 @@ def test_way_home_of_rocker_and_slider() -> None:
     work = (energy(turned + step) - energy(turned - step)) / (share(turned + step) - share(turned - step))
     expected = work / motion.torque(k) * cam.drive.crank_span**2 / motion.swing * motion.swing
     np.testing.assert_allclose(way_home_ratio(cam, k), expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_the_angle_of_a_half_gives_the_motion_that_the_time_gives(late: bool) -> None:
+    """Times and deficits beside k* are integrals; the others, differences of places, keep 1e-11 at 0.01 of the half."""
+    made = cam()
+    law = HalfLaw(made.law, made.middle, late)
+    k = np.array([0.01, 0.2, 0.4, 0.46, 0.49, 0.51, 0.8])
+    turns = np.array([law.turn_at(share) for share in (k - 0.5).tolist()])
+    np.testing.assert_allclose(law.share_from_middle(turns), k - 0.5, rtol=1e-11)
+    seen, expected = law.view_at(turns), law.middle_view(k)
+    for name in ("angle", "velocity", "deficit", "acceleration"):
+        np.testing.assert_allclose(getattr(seen, name), getattr(expected, name), rtol=1e-10, atol=1e-13)
+    step = 1e-5
+    before, after = (law.middle_view(k + side * step) for side in (-1, 1))
+    np.testing.assert_allclose(seen.velocity * law.swing, (after.angle - before.angle) / (2.0 * step), rtol=1e-6)
+    assert law.turn_near(1e-6) == pytest.approx(law.turn_at(1e-6), rel=1e-4)

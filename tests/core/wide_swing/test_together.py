@@ -1,0 +1,119 @@
+"""Wide swings whose searches run together have what each finds by itself.
+
+Tolerance: 1e-12 of a value, for extremes that are refined to rounding over other samples; 1e-9 for the end of contact,
+a root that rounding leaves uncertain by so much where the roller is small, and for the curvature there.
+"""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import factory
+import pytest
+
+from gearlink.core.studies.explore.base import Base, single, singles
+
+CAM = {"cam.center_distance": 20.0, "cam.roller_radius": 1.5}
+LAW = {"swing": 8.0, "unloader.pivot_ratio": 0.3, "inertia": 0.02}
+SLIDER = {**CAM, "swing": 4.0, "slider.rod": 20.0, "slider.crank": 8.0}
+STUDIES: dict[str, tuple[str, dict[str, float]]] = {
+    "law": ("wide_swing_twin_cam", CAM | LAW | {"cycle_angle": 10.0}),
+    "cam": ("wide_swing_twin_cam", CAM | {"unloader.arm": 10.0, "speed": 10.0}),
+    "whole cycle": ("wide_swing_cycle", CAM | LAW | {"cycle.working": 5.0, "cam.free_clearance": 0.3}),
+    "slider": ("wide_swing_slider_cam", SLIDER),
+    "parallel shafts": ("wide_swing_parallel", CAM | {"cam.second.center_distance": 10.0}),
+    "rocker": ("wide_swing_twin_rocker", CAM),
+    "carried by a crank-rocker": ("wide_swing_oscillating_cam", CAM | {"drive.coupler": 10.0}),
+}
+OF_CONTACT = ("transition_zone", "min_curvature_radius")
+
+
+def _base(name: str) -> Base:
+    return Base(factory.worked(name), "analyze")
+
+
+def _rows(base: Base, widths: dict[str, float], count: int) -> list[list[tuple[str, Any]]]:
+    own, rows = random.Random(11), []
+    for _ in range(count):
+        rows.append([(path, _value(base.data, path) + own.uniform(-by, by)) for path, by in widths.items()])
+    return rows
+
+
+def _value(data: Any, path: str) -> float:
+    for key in path.split("."):
+        data = data[key]
+    return float(data)
+
+
+def _compare(one: Any, other: Any) -> None:
+    assert one.refused == other.refused
+    assert one.what == other.what
+    for name, value in one.values.items():
+        exact = 1e-9 if name in OF_CONTACT else 1e-12
+        assert other.values[name] == (value if value is None else pytest.approx(value, rel=exact, abs=exact)), name
+    assert [(c.code, c.status, c.what) for c in one.findings] == [(c.code, c.status, c.what) for c in other.findings]
+
+
+NAMES = ("max_radius", "max_pressure_angle", "min_curvature_radius", "transition_zone", "contact_force")
+
+
+def _study(name: str, rows: Any) -> list[Any]:
+    base, alone = _base(name), _base(name)
+    codes, own = list(base.codes), base.design()
+    names = [each for each in NAMES if own.raw(each) is not None]
+    found = singles(base, rows, names, codes)
+    for row, other in zip(rows, found, strict=True):
+        _compare(single(alone, row, names, codes), other)
+    return found
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("study", STUDIES)
+def test_designs_of_a_study_are_those_of_each_alone(study: str) -> None:
+    name, widths = STUDIES[study]
+    _study(name, _rows(_base(name), widths, 9))
+
+
+def _found(name: str, widths: dict[str, float], *asked: str) -> list[Any]:
+    base = _base(name)
+    designs: list[Any] = [base.design(row) for row in _rows(base, widths, 9)]
+    type(designs[0]).find_together(designs, asked)
+    return designs
+
+
+def test_cams_are_found_together() -> None:
+    for design in _found("wide_swing_twin_cam", CAM | LAW, "contact_force"):
+        assert {"least_loop_measure", "contact_end", "tops", "pressing"} <= set(vars(design.cam))
+
+
+@pytest.mark.slow
+def test_halves_and_free_sectors_are_found_together() -> None:
+    for design in _found("wide_swing_slider_cam", SLIDER, "max_pressure_angle"):
+        for half in design.slider_cam.halves:
+            assert {"least_loop_measure", "contact_end", "tops"} <= set(vars(half))
+            assert "pressing" not in vars(half)
+    for design in _found("wide_swing_cycle", CAM | LAW, "closed-contour"):
+        assert all("free" in vars(closed) for closed in design.cycle.contours.values())
+
+
+def test_designs_of_one_device_and_swing_share_their_law() -> None:
+    designs = _found("wide_swing_twin_cam", CAM, "max_radius")
+    assert len({id(design.motion.plain_law) for design in designs}) == 1
+    assert len({id(design.motion.plain_law) for design in _found("wide_swing_twin_cam", LAW, "max_radius")}) == 9
+
+
+@pytest.mark.slow
+def test_those_that_do_not_exist_leave_the_others_found_together() -> None:
+    wrong: list[list[tuple[str, Any]]] = [
+        [("cam.roller_radius", 150.0)],  # covers its profile
+        [("cam.roller_radius", 1e-3)],  # leaves it later than is solved for
+        [("cam.rocker_radius", 60.0)],
+        [("cam.rocker_radius", 90.0)],  # has a loop
+        [("unloader.pivot_ratio", 1.0)],
+        [("swing", 10.0), ("cycle_angle", 300.0)],
+    ]
+    rows = [*_rows(_base("wide_swing_twin_cam"), CAM | LAW, 10), *wrong]
+    random.Random(3).shuffle(rows)
+    found = _study("wide_swing_twin_cam", rows)
+    assert sum(bool(one.refused) for one in found) >= 2
