@@ -17,6 +17,7 @@ PARTS = 1e6
 _BLOCK, _TILE = 512, 1024
 _SIEVES = 24
 _GOLDEN = 0.6180339887498949
+_ROUNDING = 1e-12
 
 
 def counted(objectives: Reals, resolution: Reals) -> Reals:
@@ -165,16 +166,22 @@ def knee(objectives: Reals) -> int | None:
     Parameters
         objectives : (N, k) array - in the order of the rows shown
     Notes
-        It moves with the ends of the front: a mark, no verdict. Ties within 1e-12 go to the first row.
+        It moves with the ends of the front: a mark, no verdict. Ties within 1e-12 go to the first row; an objective
+        in which the rows differ by less has no share in it.
     Example
         >>> knee(np.array([[0.0, 10.0], [1.0, 2.0], [8.0, 0.0]]))
         1
     """
     if len(objectives) < 3:
         return None
+    return int(np.argmin(np.round(_scaled(objectives).sum(axis=1), 12)))
+
+
+def _scaled(objectives: Reals) -> Reals:
+    """Each objective from 0 to 1 over the rows; 0 where these are alike but for rounding."""
     low, high = objectives.min(axis=0), objectives.max(axis=0)
-    width = np.where(high > low, high - low, 1.0)
-    return int(np.argmin(np.round(((objectives - low) / width).sum(axis=1), 12)))
+    differs = high - low > _ROUNDING * np.maximum(np.abs(low), np.abs(high))
+    return np.where(differs, (objectives - low) / np.where(differs, high - low, 1.0), 0.0)
 
 
 def spread(objectives: Reals, most: int, first: int) -> Indices:
@@ -186,8 +193,7 @@ def spread(objectives: Reals, most: int, first: int) -> Indices:
     count = len(objectives)
     if count <= most:
         return np.arange(count)
-    low, high = objectives.min(axis=0), objectives.max(axis=0)
-    scaled = (objectives - low) / np.where(high > low, high - low, 1.0)
+    scaled = _scaled(objectives)
     taken, away = [first], np.full(count, np.inf)
     while len(taken) < most:
         away = np.minimum(away, np.round(((scaled - scaled[taken[-1]]) ** 2).sum(axis=1), 12))

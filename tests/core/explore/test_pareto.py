@@ -135,3 +135,12 @@ def test_knee_and_spread() -> None:
     assert knee(rows[:2]) is None
     assert spread(rows, 3, 1).tolist() == [0, 1, 3]
     assert spread(rows, 9, 1).tolist() == [0, 1, 2, 3]
+
+
+def test_an_objective_that_is_alike_but_for_rounding_moves_no_knee() -> None:
+    rows = np.array([[0.0, 9.0], [4.0, 2.0], [4.5, 2.0], [9.0, 0.0], [5.0, 5.0]])
+    noise = np.array([3.0, 0.0, -2.0, 1.0, 2.0])[:, None] * 2.0**-52
+    for third in (0.0, 8.36, -8.36):
+        level = third * (1.0 + noise)
+        assert knee(np.hstack([rows, level])) == knee(rows) == 1
+        assert spread(np.hstack([rows, level]), 3, 1).tolist() == spread(rows, 3, 1).tolist()

@@ -49,7 +49,7 @@ def test_designs_that_seek_nothing_together_keep_for_the_next(monkeypatch: pytes
         Base, "design", lambda self, changes, make=Base.design: order.append("made") or make(self, changes)
     )
     monkeypatch.setattr(Base, "values", lambda self, *asked, of=Base.values: order.append("asked") or of(self, *asked))
-    singles(Base(worked("wide_swing_twin_cam"), "swing"), [[("speed", 3000.0)]] * 2, (), ())
+    singles(Base(worked("geneva_drive"), "analyze"), [[("input_speed", 60.0)]] * 2, (), ())
     assert order == ["made", "asked"] * 2
 
 
