@@ -293,15 +293,10 @@ _EVALUATED = [
     ("press", "ty460", "sync_start", "slider_crank bed cylinder"),
     ("cam", "ty460", "follower_stroke", "slider_crank bed cylinder sync_start sync_end follower"),
     ("cam", "ty460", "cam_base_radius", "base_radius"),
-    ("gripper", "swing_gripper", "total_swing", "law timing phases"),
-    ("gripper", "swing_gripper", "handover_speed", "law timing phases state speed shaft_speed"),
-    ("gripper", "swing_gripper", "min_transmission_angle", "law timing phases unchecked linkage"),
-    (
-        "cam",
-        "swing_gripper",
-        "max_pressure_angle",
-        "law timing phases unchecked linkage section center main_cam return_cam",
-    ),
+    ("gripper", "swing_gripper", "total_swing", "law phases"),
+    ("gripper", "swing_gripper", "handover_speed", "law phases state speed shaft_speed"),
+    ("gripper", "swing_gripper", "min_transmission_angle", "law phases linkage unchecked"),
+    ("cam", "swing_gripper", "max_pressure_angle", "law phases linkage unchecked section center main_cam return_cam"),
     ("swing", "wide_swing_twin_cam", "energy_parameter", "swing device plain_law"),
     ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing"),
     ("swing", "wide_swing_twin_cam", "spring_rate", "swing device plain_law"),
@@ -340,10 +335,12 @@ def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     # the file as completed and as read, whether to advise, the kind that made it, and a function: nothing worked out
     given = ("spec", "asked", "advise", "kin", "_way_back")
-    parts = [each for name, each in vars(made).items() if hasattr(each, "spec") and name not in given]
+    parts = [made]
+    for part in parts:
+        parts += [each for name, each in vars(part).items() if hasattr(each, "spec") and name not in given]
     return {
         name
-        for each in (made, *parts)
+        for each in parts
         for name, value in vars(each).items()
-        if name not in given and value not in parts
+        if name not in given and not any(value is part for part in parts)
     }
