@@ -36,7 +36,15 @@ from gearlink.core.machines.wide_swing.codes import (
     TURNABILITY,
 )
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
-from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, QUANTITIES, DeviceSize, device_table, names
+from gearlink.core.machines.wide_swing.sizing import (
+    ISENTROPIC,
+    OF_CYLINDER,
+    OF_GRAVITY,
+    QUANTITIES,
+    DeviceSize,
+    device_table,
+    names,
+)
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, minimum_over, share_of
 from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
@@ -1187,7 +1195,12 @@ class WideSwingDesign(Design):
         return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
 
     def raw(self, name: str) -> Any:
-        """A quantity by its place among the parts; one of a profile that does not exist says which key to change."""
+        """A quantity by its place among the parts; one of a profile that does not exist says which key to change.
+
+        None of one that another device has, or of a way at an `output_radius` that the file lacks.
+        """
+        if self.needs(name):
+            return None
         if name in NEED_ZONE:
             with self._profile_key:
                 self.cam.require_profile()
@@ -1201,6 +1214,17 @@ class WideSwingDesign(Design):
         with at_key("cam.roller_radius"):
             value = value_of(self)
         return None if value is None or math.isinf(value) else value
+
+    def needs(self, name: str, /) -> str:
+        """The device or the key that the file lacks."""
+        if name in GAIN and self.spec.output_radius is None:
+            return "output_radius"
+        if name not in QUANTITIES or name in names(self.spec):
+            return ""
+        if name in OF_CYLINDER:
+            key = "reservoir" if name in OF_CYLINDER[3:] else "pressure"
+            return f"unloader: {{type: pneumatic, {key}}}"
+        return f"unloader: {{type: {'gravity' if name in OF_GRAVITY else 'spring'}}}"
 
     def table_law(self, samples: int | None = None) -> Table:
         """The invariants of the law over the stroke."""

@@ -231,3 +231,21 @@ def test_pendulum_with_slider_swings_in_the_time_of_the_stroke(reserve: float, i
     )  # differences of 1e-5 rad: 1e-10, and the slider's 1e-16/1e-5
     back = design_of(PENDULUM | {"mass": mass}, speed=18.0, inertia=inertia, slider=SLIDER, swing=100.0)
     assert back.unloading.size.reserve == pytest.approx(reserve, rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "missing"),
+    [
+        ("bore", "unloader: {type: pneumatic, pressure}"),
+        ("force_variation", "unloader: {type: pneumatic, reservoir}"),
+        ("mass", "unloader: {type: gravity}"),
+        ("force_min", "unloader: {type: spring}"),
+        ("end_position_gain", "output_radius"),
+        ("force_max", ""),
+    ],
+)
+def test_what_another_device_has_is_not_known(name: str, missing: str) -> None:
+    """That was a fault of the program."""
+    design = design_of(CYLINDER)
+    assert design.needs(name) == missing
+    assert (design.quantity(name) is None) is bool(missing)
