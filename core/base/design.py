@@ -244,8 +244,8 @@ class Design:
         value = _bounded(self.raw(name))
         if value is None:
             return None
-        entry = term(name)
-        return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
+        entry, unit = term(name), self.unit_for(self.spec, name)
+        return Quantity(name, in_unit(value, unit), unit, entry.symbol, entry.words)
 
     def needs(self, _name: str, /) -> str:
         """In words, what the file must give for a quantity that is None; empty where nothing is missing."""

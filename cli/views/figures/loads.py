@@ -92,7 +92,8 @@ def residual(axes: Axes, design: Any) -> None:
     axes.plot(speed, amplitude, color=style.PURPLE, linewidth=1.4)
     at = float(speed[-1]) / 1.3
     axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=f"speed {at:.5g}")
-    allowed, here = design.section.vibration.allowed_residual, float(design.residual_amplitude or 0.0)
+    left = design.quantity("residual_amplitude")
+    allowed, here = design.section.vibration.allowed_residual, 0.0 if left is None else float(left.value)
     if allowed is not None and here > allowed:
         words = f"{here:.4g} {unit} at this speed"
         axes.plot([at], [here], "o", color=style.WRONG, markersize=6.0, zorder=7, label=words, gid="fails")

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Found, Outline, in_unit, placed
+from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.many_designs import column, hand_out, sought, together
-from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way, down, either, thinner, up
-from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Making, Place
@@ -182,14 +181,12 @@ class DiscCamDesign(OfFollower, Design):
             found = found._replace(tables=tuple(name for name in found.tables if name != "return_cam"))
         return found
 
-    def quantity(self, name: str) -> Quantity | None:
-        """Those of an oscillating follower in its own units, the speed of lift-off in that of the cam."""
-        unit = _ROCKING.get(name) if self.spec.oscillates else None
-        unit = "1/min" if name == "lift_off_speed" else unit
-        if unit is None:
-            return super().quantity(name)
-        value, entry = self.raw(name), term(name)
-        return None if value is None else Quantity(name, in_unit(value, unit), unit, entry.symbol, entry.words)
+    @classmethod
+    def unit_for(cls, spec: Any, name: str, /) -> str:
+        """Those of an oscillating follower are its own, the speed of lift-off has that of the cam."""
+        if name == "lift_off_speed":
+            return "1/min"
+        return (_ROCKING.get(name) if spec.oscillates else None) or super().unit_for(spec, name)
 
     # Sizes
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.core.base.design import geometry, placed
 from gearlink.core.base.errors import MissingSection
-from gearlink.core.base.report import Quantity, Table
+from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign
 from gearlink.core.mechanism.joints import NEWTON_METER
@@ -227,11 +227,10 @@ class FollowerCamLoads(_Loads):
         found = super().raw(name)
         return found[0] if name in _EACH and isinstance(found, list) and len(found) == 1 else found
 
-    def quantity(self, name: str) -> Quantity | None:
-        """Spring and lift-off in the units of the geometry."""
-        if name in ("spring_preload", "lift_off_speed"):
-            return self.design.quantity(name)
-        return super().quantity(name)
+    @classmethod
+    def unit_for(cls, spec: Any, name: str, /) -> str:
+        """That of the spring is the unit of the geometry."""
+        return DiscCamDesign.unit_for(spec, name) if name == "spring_preload" else super().unit_for(spec, name)
 
 
 class DiscCamLoads(FollowerCamLoads, CamLoadsDesign):

@@ -92,6 +92,8 @@ class OfMembers(Design):
     def unit_for(cls, spec: Any, name: str, /) -> str:
         """The unit of a quantity: of a member's own what its kind says."""
         member, _, rest = name.partition(".")
+        if name == "servo_error" and cls(spec).rocks:
+            return "deg"
         if rest in _OF_MEMBER:
             return _OF_MEMBER[rest]
         own = cls._classes(spec).get(member) if rest else None
@@ -141,10 +143,7 @@ class OfMembers(Design):
         """A quantity in the units of design files; of a member as its own design gives it."""
         member, _, rest = name.partition(".")
         if not rest:
-            found = super().quantity(name)
-            if found is not None and name == "servo_error" and self.rocks:
-                return replace(found, value=math.degrees(found.value), unit="deg")  # type: ignore[arg-type]
-            return found
+            return super().quantity(name)
         if rest in _OF_MEMBER and member in self.spec.free:
             entry, value = term(rest), self.raw(name)
             return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
@@ -366,7 +365,7 @@ class Machine(OfMembers):
     @property
     def rocks(self) -> bool:
         """Whether that output turns."""
-        return self.follower_motion.member.course.unit == "rad"
+        return self.spec.servo is not None and self.members[self.spec.servo.member].course.unit == "rad"
 
     @cached_property
     def servo_rows(self) -> int | None:

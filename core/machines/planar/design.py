@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -454,15 +453,10 @@ class PlanarMechanism(Design):
     @classmethod
     def unit_for(cls, spec: Any, name: str, /) -> str:
         """Units follow the input and what the outputs are."""
-        design = cls(spec)
-        if name in design._of_cams:
-            return term(name.rpartition(".")[2]).unit
-        meaning = design.meanings.get(name)
-        return design.general_unit(name) if meaning is None else meaning.unit
-
-    def general_unit(self, name: str) -> str:
-        """Unit of a quantity that is not of an output; inputs of a slide are in mm."""
-        return "mm" if self.spec.drive.slide and name in _INPUTS else term(name).unit
+        if name in GENERAL:  # inputs of a slide are in mm
+            return "mm" if spec.drive.slide and name in _INPUTS else super().unit_for(spec, name)
+        meaning = cls(spec).meanings.get(name)
+        return super().unit_for(spec, name.rpartition(".")[2]) if meaning is None else meaning.unit
 
     def outline(self, command: str) -> Outline:
         """With the quantities of the file's outputs."""
@@ -496,9 +490,7 @@ class PlanarMechanism(Design):
             shown = math.degrees(value) if entry.unit == "deg" else value
             return Quantity(name, shown, entry.unit, entry.symbol, f"{entry.words}, of the cam {cam}")
         if meaning is None:
-            found = super().quantity(name)
-            unit = self.general_unit(name)
-            return found if found is None or found.unit == unit else replace(found, value=self.raw(name), unit=unit)
+            return super().quantity(name)
         found = self.raw(name)
         if found is None:
             return None

@@ -16,7 +16,7 @@ import numpy as np
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.remedies.ways import THINNEST
-from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Shown, Status, Table, safely_above, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
@@ -1189,10 +1189,10 @@ class WideSwingDesign(Design):
 
     # Results
 
-    def quantity(self, name: str) -> Quantity | None:
-        """As for every design; the speed of lift-off is the cam's."""
-        found = super().quantity(name)
-        return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
+    @classmethod
+    def unit_for(cls, spec: Any, name: str, /) -> str:
+        """The speed of lift-off is the cam's."""
+        return "1/min" if name == "lift_off_speed" else super().unit_for(spec, name)
 
     def raw(self, name: str) -> Any:
         """A quantity by its place among the parts; one of a profile that does not exist says which key to change.

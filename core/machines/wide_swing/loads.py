@@ -19,7 +19,7 @@ import numpy as np
 from gearlink.core.base.design import geometry, placed
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.remedies.ways import at_least
-from gearlink.core.base.report import Check, Quantity, Remedy, Status, Table
+from gearlink.core.base.report import Check, Remedy, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
@@ -755,13 +755,6 @@ class WideSwingLoads(LoadsDesign):
         """The rocker on the shaft that drives it."""
 
         return SwingVibrating(self)
-
-    def quantity(self, name: str) -> Quantity | None:
-        """The speed of lift-off is the cam's."""
-        from dataclasses import replace
-
-        found = super().quantity(name)
-        return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
 
     def raw(self, name: str) -> Any:
         """A stroke alone has no turns to count; a crank drives no cam shaft."""

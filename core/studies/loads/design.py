@@ -12,9 +12,8 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution
-from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import at_least, at_most
-from gearlink.core.base.report import Check, Quantity, Remedy, without_noise
+from gearlink.core.base.report import Check, Remedy, without_noise
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec_paths import number_at
 from gearlink.core.mechanism.joints import Connection, Guide, Pin, Toothed
@@ -671,18 +670,14 @@ class LoadsDesign(Design):
     speed_seconds: ClassVar[float] = 60.0
     speed_words: ClassVar[str] = "rev/min"
 
-    def quantity(self, name: str) -> Quantity | None:
+    @classmethod
+    def unit_for(cls, spec: Any, name: str, /) -> str:
         """Places of the output are in mm where it slides, speeds in the unit of the kind's own."""
-        unit = self._own_unit(name)
-        if unit is None:
-            return super().quantity(name)
-        value, entry = self.raw(name), term(name)
-        return None if value is None else Quantity(name, value, unit, entry.symbol, entry.words)
-
-    def _own_unit(self, name: str) -> str | None:
         if name in ("residual_amplitude", "dwell_twist", "twisted_ripple"):
-            return "mm" if self.output in self.sliding else "deg"
-        return self.speed_unit_name if name == "residual_speed_limit" else None
+            design = cls(spec)
+            return "mm" if design.output in design.sliding else "deg"
+        of_speed = name in ("residual_speed_limit", "lift_off_speed")
+        return cls.speed_unit_name if of_speed else super().unit_for(spec, name)
 
     @property
     def _twisting(self) -> Vibrating | None:
@@ -691,9 +686,25 @@ class LoadsDesign(Design):
     natural_frequency: float | None = placed("_twisting.frequency")
     frequency_ratio: float | None = placed("_twisting.frequency_ratio")
     rise_periods: float | None = placed("_twisting.rise_periods")
-    residual_amplitude: float | None = placed("_twisting.residual")
-    dwell_twist: float | None = placed("_twisting.twist")
-    twisted_ripple: float | None = placed("_twisting.twisted_ripple")
+
+    @property
+    def residual_amplitude(self) -> float | None:
+        """Vibration that a motion leaves in the dwell after it [rad or mm]."""
+        return None if self._twisting is None else self._of_output(self._twisting.residual)
+
+    @property
+    def dwell_twist(self) -> float | None:
+        """Maximum deflection in the dwells in the steady state [rad or mm]."""
+        return None if self._twisting is None else self._of_output(self._twisting.twist)
+
+    @property
+    def twisted_ripple(self) -> float | None:
+        """Range of the output with its deflection in a dwell [rad or mm]."""
+        return None if self._twisting is None else self._of_output(self._twisting.twisted_ripple)
+
+    def _of_output(self, found: float | None) -> float | None:
+        """A deflection [deg or mm] in rad where the output turns."""
+        return found if found is None or self.output in self.sliding else math.radians(found)
 
     @property
     def residual_speed_limit(self) -> float | None:

@@ -19,7 +19,6 @@ from gearlink.core.base.design import in_unit
 from gearlink.core.base.design_axis import Evaluated, Single, as_arrays, put_in
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.base.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.studies.explore.base import Refused, checks_of, findings_of
 from gearlink.core.studies.tolerance.sampling import (
@@ -157,7 +156,7 @@ def _single(made: Problem, design: Any, names: Sequence[str]) -> Single:
         own = _extra(made)
         plain, codes = [name for name in names if name not in own], list(made.base.codes)
         values = made.base.values(design, plain, checks_of(made.base, codes))
-        values |= {name: in_unit(design.raw(name), term(name).unit) for name in names if name in own}
+        values |= {name: in_unit(design.raw(name), made.base.unit(name)) for name in names if name in own}
         return Single(values, tuple(findings_of(made.base, design, codes)))
     except (Refused, NoSolution) as error:
         return Single({}, (), error.key or "kind", str(error))

@@ -50,7 +50,7 @@ def test_the_mark_of_a_residual_is_that_of_its_finding() -> None:
     """It was read from the curve between two of its points."""
     design, figure = sheet("loaded_wide_swing", "loads", speed=400.0)
     (mark,) = [line for line in _axes(figure, "Residual vibration over the speed").lines if line.get_gid() == "fails"]
-    assert mark.get_ydata() == [design.residual_amplitude]
+    assert mark.get_ydata() == [design.quantity("residual_amplitude").value]
 
 
 @pytest.mark.slow
