@@ -66,11 +66,22 @@ def iso_limits(given: Given) -> Results:
     }
 
 
-def cumulative_pitch(given: Given) -> Results:
-    """Cumulative pitch tolerance [um] of ISO 1328-1."""
-    from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
+def tooth_tolerances(given: Given) -> Results:
+    """Tolerances [um] of ISO 1328-1:2013."""
+    from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
 
-    return {"F_p": 1e3 * cumulative_pitch(given["class"], given["module"], given["diameter"], given["width"])}
+    sizes = {name: given[name] for name in ("module", "diameter", "width")}
+    found = ToothTolerances(grade=given["class"], **sizes)
+    return {
+        "f_pt": found.single_pitch,
+        "F_p": found.cumulative_pitch,
+        "f_H,alpha": found.profile_slope,
+        "f_f,alpha": found.profile_form,
+        "F_alpha": found.profile_total,
+        "f_H,beta": found.helix_slope,
+        "f_f,beta": found.helix_form,
+        "F_beta": found.helix_total,
+    }
 
 
 def thickness_allowances(given: Given) -> Results:
@@ -117,7 +128,7 @@ KERNELS: dict[str, Callable[[Given], Results]] = {
     "four-bar": four_bar,
     "law-constants": motion_law,
     "iso-286": iso_limits,
-    "iso-1328": cumulative_pitch,
+    "iso-1328": tooth_tolerances,
     "din-3967": thickness_allowances,
     "bearing-clearance": bearing_clearance,
     "flywheel": flywheel,

@@ -73,7 +73,8 @@ class ToothTolerances:
         (14.0, 18.0, 18.0)
 
     Source
-        ISO 1328-1:1995: 64 numbers of three KISSsoft reports; ISO 1328-1:2013: from memory but for F_p
+        ISO 1328-1:1995: 64 numbers of three KISSsoft reports; ISO 1328-1:2013, formulas 5 to 12, as three public
+        programs write them
     """
 
     grade: int
@@ -135,49 +136,54 @@ class ToothTolerances:
         return self._graded(0.8 * (0.3 * m + 1.25 * math.sqrt(d) + 7))
 
     @cached_property
-    def profile_form(self) -> float:
-        """f_f,alpha."""
+    def _profile(self) -> tuple[float, float]:
+        """Slope and form at grade 5, not rounded."""
         m, d, _ = self._means
         if self.edition == EDITION:
-            return self._graded(0.55 * m + 5)
-        return self._graded(2.5 * math.sqrt(m) + 0.17 * math.sqrt(d) + 0.5)
+            return 0.4 * m + 0.001 * d + 4, 0.55 * m + 5
+        return 2 * math.sqrt(m) + 0.14 * math.sqrt(d) + 0.5, 2.5 * math.sqrt(m) + 0.17 * math.sqrt(d) + 0.5
+
+    @cached_property
+    def _helix(self) -> tuple[float, float]:
+        """Slope and form at grade 5, not rounded; of 1995 they are the same."""
+        _, d, b = self._means
+        form = 0.07 * math.sqrt(d) + 0.45 * math.sqrt(b) + (4 if self.edition == EDITION else 3)
+        return (0.05 * math.sqrt(d) + 0.35 * math.sqrt(b) + 4 if self.edition == EDITION else form), form
 
     @cached_property
     def profile_slope(self) -> float:
         """f_H,alpha."""
-        m, d, _ = self._means
-        if self.edition == EDITION:
-            return self._graded(0.4 * m + 0.001 * d + 4)
-        return self._graded(2 * math.sqrt(m) + 0.14 * math.sqrt(d) + 0.5)
+        return self._graded(self._profile[0])
+
+    @cached_property
+    def profile_form(self) -> float:
+        """f_f,alpha."""
+        return self._graded(self._profile[1])
 
     @cached_property
     def profile_total(self) -> float:
-        """F_alpha, of 2013 from the rounded parts."""
-        m, d, _ = self._means
+        """F_alpha, of 2013 from the parts that are not rounded yet."""
         if self.edition == EDITION:
-            return _rounded(math.hypot(self.profile_slope, self.profile_form))
+            return self._graded(math.hypot(*self._profile))
+        m, d, _ = self._means
         return self._graded(3.2 * math.sqrt(m) + 0.22 * math.sqrt(d) + 0.7)
 
     @cached_property
     def helix_slope(self) -> float:
         """f_H,beta."""
-        _, d, b = self._means
-        if self.edition == EDITION:
-            return self._graded(0.05 * math.sqrt(d) + 0.35 * math.sqrt(b) + 4)
-        return self._graded(0.07 * math.sqrt(d) + 0.45 * math.sqrt(b) + 3)
+        return self._graded(self._helix[0])
 
     @cached_property
     def helix_form(self) -> float:
-        """f_f,beta; of 1995 that of the slope."""
-        _, d, b = self._means
-        return self._graded(0.07 * math.sqrt(d) + 0.45 * math.sqrt(b) + (4 if self.edition == EDITION else 3))
+        """f_f,beta."""
+        return self._graded(self._helix[1])
 
     @cached_property
     def helix_total(self) -> float:
-        """F_beta, of 2013 from the rounded parts."""
-        _, d, b = self._means
+        """F_beta, of 2013 from the parts that are not rounded yet."""
         if self.edition == EDITION:
-            return _rounded(math.hypot(self.helix_slope, self.helix_form))
+            return self._graded(math.hypot(*self._helix))
+        _, d, b = self._means
         return self._graded(0.1 * math.sqrt(d) + 0.63 * math.sqrt(b) + 4.2)
 
     def base_pitch(self, transverse_pressure_angle: float) -> float:

@@ -92,7 +92,7 @@ def _shown(value: Any) -> str:
 
 def _tolerances(rated: Rated) -> Iterator[Line]:
     given, bodies, pair = rated.conditions, rated.bodies, rated.data.pair
-    printed, rule = given.edition == 1995, f"R2 ISO 1328-1:{given.edition}"
+    rule = f"R2 ISO 1328-1:{given.edition}"
     inputs = _said(
         grade=given.grades, m=pair.module, d=tuple(2.0 * abs(r) for r in pair.reference_radius), b=bodies.widths
     )
@@ -102,9 +102,9 @@ def _tolerances(rated: Rated) -> Iterator[Line]:
         ("f_f,alpha", "profile form deviation", (one.profile_form, other.profile_form)),
         ("f_H,beta", "helix slope deviation", (one.helix_slope, other.helix_slope)),
     ):
-        yield Line(symbol, name, values, "um", rule, inputs, confirmed=printed)
+        yield Line(symbol, name, values, "um", rule, inputs)
     turned = _said(f_pt=(one.single_pitch, other.single_pitch), alpha_t=math.degrees(pair.transverse_pressure_angle))
-    yield Line("f_pb", "base pitch deviation", bodies.base_pitch_deviations, "um", rule, turned, confirmed=printed)
+    yield Line("f_pb", "base pitch deviation", bodies.base_pitch_deviations, "um", rule, turned)
 
 
 def _stiffness(rated: Rated) -> Iterator[Line]:

@@ -82,6 +82,16 @@ def test_tolerances_of_1995_as_printed(sizes: tuple[float, ...], printed: tuple[
     assert tuple(getattr(found, name) for name in _NAMES) == printed
 
 
+def test_tolerances_of_2013_against_their_formulas() -> None:
+    """Printed by a public program, totals of what is not rounded yet: 7.82 and 9.05, not 7.75 and 8.85 um."""
+    found = ToothTolerances(grade=5, module=2.0, diameter=100.0, width=20.0)
+    assert (found.single_pitch, found.cumulative_pitch, found.runout) == (6.0, 19.0, 17.0)
+    assert (found.profile_slope, found.profile_form, found.profile_total) == (4.9, 6.0, 8.0)
+    assert (found.helix_slope, found.helix_form, found.helix_total) == (6.0, 6.5, 9.0)
+    coarser = ToothTolerances(grade=6, module=2.0, diameter=100.0, width=20.0)
+    assert coarser.single_pitch == 8.5  # 5.9 sqrt 2 = 8.34
+
+
 def test_a_tolerance_outside_of_the_standard_is_refused() -> None:
     with pytest.raises(NoSolution, match="grade 12 of ISO 1328-1:2013"):
         ToothTolerances(grade=12, module=2.0, diameter=50.0, width=20.0)
@@ -308,9 +318,10 @@ def test_the_sheet_says_where_every_factor_is_from() -> None:
     assert by["sigma_HG"]["gear2"] == of("pitting_limit_stress")[1]
     assert {row["origin"] for row in rows} == {"computed", "given", "default"}
     assert all(row["rule"].startswith("R") for row in rows)
-    assert not by["f_pt"]["confirmed"]
-    old = rated(rating={"tolerance_edition": 1995}).table("factors")
-    assert dict(zip(old.data[0], old.data[8], strict=True))["f_pt"]
+    assert not by["sigma_Hlim"]["confirmed"]
+    for edition in (1995, 2013):  # both have printed numbers, in PRINTED and of `verify iso1328`
+        tolerances = rated(rating={"tolerance_edition": edition}).table("factors")
+        assert dict(zip(tolerances.data[0], tolerances.data[8], strict=True))["f_pt"]
 
 
 def test_what_is_met_by_a_report_alone_needs_no_warning() -> None:
