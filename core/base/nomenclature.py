@@ -510,7 +510,10 @@ GEAR_PAIR = {
 
 _SLIDER_CRANK = {
     "quick_return_ratio": Term(
-        "K", "1", "time of the forward over the return stroke; of a crank-rocker of the slow over the fast", "VDI 2142"
+        "K",
+        "1",
+        "time of the forward over the return stroke; of crank-rocker and planar-mechanism of the slow over the fast",
+        "VDI 2142",
     ),
     "dead_center_extended": Term("theta_e", "deg", "crank direction from the slide line, stretched: asin(e/(L+r))"),
     "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),

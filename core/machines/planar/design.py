@@ -20,7 +20,14 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
 from gearlink.core.machines.planar.course import Course
-from gearlink.core.machines.planar.extremes import Extreme, Pair, Wanted, extremes, turning_points
+from gearlink.core.machines.planar.extremes import (
+    Extreme,
+    Pair,
+    Wanted,
+    extremes,
+    quick_return_ratio,
+    turning_points,
+)
 from gearlink.core.machines.planar.outputs import Moved, moved, point_output
 from gearlink.core.machines.planar.structure import GearJoint, RackJoint, Structure
 from gearlink.core.machines.planar.wiring import FRAME
@@ -257,7 +264,7 @@ class Meaning(NamedTuple):
     Fields
         output : Moved - the number that it is of
         order : int - of the derivative
-        side : "max", "max_at", "min", "min_at", or what else it is: "span", "turns", "path"
+        side : "max", "max_at", "min", "min_at", or what else it is: "span", "return", "turns", "path"
         timed : bool - in real time
         unit : str
     """
@@ -290,6 +297,7 @@ def meanings(parts: tuple[Moved, ...], name: str, per: str, *, timed: bool) -> I
             if order == 0:
                 span = "swing" if part.sort == "link" else "stroke"
                 yield f"{name}.{span}", Meaning(part, 0, "span", False, unit)
+                yield f"{name}.quick_return_ratio", Meaning(part, 0, "return", False, "1")
                 if part.sort == "link":
                     yield f"{name}.turns", Meaning(part, 0, "turns", False, "1")
         if timed:
@@ -305,7 +313,8 @@ def generic() -> tuple[str, ...]:
     """The names that an output may have, under one name for all."""
     found = [f"{name}_{side}" for sort in _RATES for name in _RATES[sort] for side in _SIDES]
     found += [f"{axis}_{side}" for axis in "xy" for side in _SIDES]
-    found += ["swing", "turns", "stroke", "path_length", "prime_radius", "base_radius", *CAM_QUANTITIES]
+    found += ["swing", "turns", "stroke", "quick_return_ratio", "path_length", "prime_radius", "base_radius"]
+    found += CAM_QUANTITIES
     found += [f"{name}_{side}" for sort in _REAL for name in _REAL[sort] for side in ("max", "min")]
     return tuple(f"output.{name}" for name in dict.fromkeys(found))
 
@@ -324,6 +333,7 @@ _WORDS = {
 _WHOLE = {
     "swing": "swing of {}",
     "stroke": "stroke of {}",
+    "quick_return_ratio": "time of the slower stroke of {} over that of the faster one",
     "turns": "net turns of {} over the period",
     "path_length": "length of the path of {} over the period or range",
 }
@@ -371,6 +381,7 @@ class PlanarMechanism(Design):
             "*.base_radius",
             "*.swing",
             "*.stroke",
+            "*.quick_return_ratio",
             "*.turns",
             "*.path_length",
             "*.speed_max",
@@ -558,7 +569,7 @@ class PlanarMechanism(Design):
         if name.startswith("min_transmission_angle"):
             return self.dyad_keys
         meaning = self.meanings.get(name)
-        if meaning is None or meaning.side in ("turns", "path") or self._turns_through(meaning):
+        if meaning is None or meaning.side in ("return", "turns", "path") or self._turns_through(meaning):
             return []
         return [(meaning.output.name, meaning.order)]
 
@@ -604,6 +615,8 @@ class PlanarMechanism(Design):
             return None
         if meaning.side == "path":
             return length(self.course, *point_output(self.structure, output.name.removesuffix("_x")))
+        if meaning.side == "return":
+            return quick_return_ratio(self.course, Wanted(output.coefficient, (0,), output.unit))
         (found,) = self.extremes((output.name, order))
         if meaning.side == "span":
             return found.max.value - found.min.value

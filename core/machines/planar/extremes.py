@@ -132,6 +132,21 @@ def humps(
     return found
 
 
+def quick_return_ratio(course: Course, wanted: Wanted) -> float | None:
+    """Time of the slower stroke over that of the faster one; None unless a period has one stroke of each direction.
+
+    Source
+        own derivation: both strokes share the period at the two places where the number returns
+    """
+    if course.turns is None or course.structure.spec.cams:
+        return None
+    places = [place for place, _ in humps(course, {"": wanted}, 1.0).get(("", 0), ())]
+    if len(places) != 2:
+        return None
+    stroke = abs(places[1] - places[0])
+    return max(stroke, course.end - stroke) / min(stroke, course.end - stroke)
+
+
 def turning_points(course: Course, of: Coefficient, *, ahead: int) -> Reals:
     """Where a number is smallest next to its neighbours.
 

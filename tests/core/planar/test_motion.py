@@ -106,6 +106,29 @@ def test_extremes_against_dense_rows(name: str) -> None:
         assert again == pytest.approx(value, abs=1e-11 * size)
 
 
+def test_quick_return() -> None:
+    """Of a slotted lever, whose strokes end where it touches the circle of the crank pin; None without two strokes."""
+    design = planar("quick-return", outputs=["lever", "slot", "crank"])
+    back = 2.0 * math.acos(150.0 / 300.0)
+    assert design.raw("lever.quick_return_ratio") == pytest.approx((2.0 * math.pi - back) / back, rel=1e-12)
+    assert design.raw("slot.quick_return_ratio") == pytest.approx(1.0, rel=1e-12)  # along the line of both axes
+    assert design.raw("crank.quick_return_ratio") is None
+    swept = planar("quick-return", outputs=["lever"], range={"start": 0, "end": 40})
+    assert swept.raw("lever.quick_return_ratio") is None
+    assert planar("planet", outputs=["guide"]).raw("guide.quick_return_ratio") is None  # six strokes
+
+
+def test_quick_return_of_four_bar() -> None:
+    """By the triangles of both dead centres, in which crank and coupler are in line."""
+    frame = math.hypot(120.0, 15.0)
+    far, near = (
+        math.acos((reach * reach + frame * frame - 78.0 * 78.0) / (2.0 * reach * frame)) for reach in (96 + 32, 96 - 32)
+    )
+    away = math.pi + near - far
+    expected = max(away, 2.0 * math.pi - away) / min(away, 2.0 * math.pi - away)
+    assert planar("four-bar").raw("rocker.quick_return_ratio") == pytest.approx(expected, rel=1e-12)
+
+
 @pytest.mark.slow
 def test_lengths_of_paths() -> None:
     """Of the circle of a crank pin, of an arc that a rocker goes to and fro, of a coupler curve by quadrature."""
