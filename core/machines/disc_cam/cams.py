@@ -258,7 +258,7 @@ class FollowerCams:
         )
 
     def _found_pivot(self, follower: OscillatingRoller) -> Place:
-        """The pivot of the smallest cam, all limits of the pressure angle taken as the lesser of the strokes'."""
+        """The pivot of the smallest cam."""
 
         def law(phi: Reals, ahead: float = 0.0) -> tuple[Reals, Reals]:
             s, s1 = self.motion.evaluate(phi, 1)
@@ -269,8 +269,13 @@ class FollowerCams:
             ahead = math.remainder(math.radians(given.angle or 0.0), 2.0 * math.pi)
             side = -follower.side if follower.side * ahead > 0.0 else follower.side
             rollers.append(RockingRoller(partial(law, ahead=ahead), 0j, given.arm or 0.0, side))
+        rise, back, dwell = self.limits
+        of_sense = {1: rise, -1: back, 0: dwell}
+        strokes = [] if rise == back else [(each.start, each.end, of_sense[each.sense]) for each in self.motion.strokes]
         with at_key("cam.size"):
-            center = smallest_cam_of_rollers(rollers, min(self.limits), sense=self.sense, joints=self.motion.joints)
+            center = smallest_cam_of_rollers(
+                rollers, min(rise, back), sense=self.sense, joints=self.motion.joints, strokes=strokes
+            )
         at_zero = follower.arm * 1.0 + 0j
 
         def placed(share: float) -> Place:

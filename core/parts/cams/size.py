@@ -48,6 +48,7 @@ def smallest_cam_of_rollers(
     sense: int,
     joints: Sequence[float] = (),
     refined: bool = True,
+    strokes: Sequence[tuple[float, float, float]] = (),
 ) -> complex:
     """Cam centre nearest to the first roller at which every roller of a cam shaft keeps a pressure-angle limit.
 
@@ -59,6 +60,7 @@ def smallest_cam_of_rollers(
         sense : +1 or -1 - eps
         joints : floats [rad] - ends of the phases of the law
         refined : bool - False looks at 2048 cam angles alone: limits are met to about 1e-6, ten times as fast
+        strokes : start, end and limit of each stroke [rad] - instead of one limit for all cam angles
     Returns
         center : complex [mm] - O, in the frame of the rollers
     Raises
@@ -77,16 +79,18 @@ def smallest_cam_of_rollers(
     Source
         own derivation: tan alpha = -Re z/Im z
     """
-    slope = _checked_slope(max_pressure_angle)
-    planes = [partial(_rocker_planes, roller, slope, sense, sign) for roller in rollers for sign in (1, -1)]
+    families: list[Callable[[complex], _Violation]] = []
+    for start, end, limit in strokes or [(0.0, TURN, max_pressure_angle)]:
+        slope = _checked_slope(limit)
+        inner = [joint for joint in joints if start < joint < end] if strokes else joints
+        for planes in (partial(_rocker_planes, roller, slope, sense, sign) for roller in rollers for sign in (1, -1)):
+            if refined:
+                families.append(partial(_largest_violation, planes, start, end, inner))
+            else:
+                families.append(partial(_largest_of, *planes(np.linspace(start, end, _PLACES))))
     first = rollers[0]
     psi, _ = first.law(np.array([0.0]))
     target = complex(first.pivot + first.arm * np.exp(1j * psi[0]))
-    if refined:
-        families = [partial(_largest_violation, family, 0.0, TURN, joints) for family in planes]
-    else:
-        phi = np.linspace(0.0, TURN, _PLACES)
-        families = [partial(_largest_of, *family(phi)) for family in planes]
     return _nearest_admissible(families, target, max_pressure_angle)
 
 

@@ -149,6 +149,33 @@ def test_a_found_pivot_needs_the_smallest_cam(sense: int) -> None:
         assert radius > design.prime_radius
 
 
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize(("rise", "back"), [(35.0, 45.0), (45.0, 35.0), (25.0, 70.0)])
+def test_a_found_pivot_keeps_a_limit_of_each_stroke(sense: int, rise: float, back: float) -> None:
+    """By the law of cosines at every cam angle: no pivot with a smaller prime radius keeps both limits."""
+    free = {key: value for key, value in ROCKER.items() if key != "center_distance"}
+    design = cam(SWING, free, {"sense": sense, "size": {"pressure_angle": [rise, back], "curvature_radius": 1}})
+    radius, arm = design.prime_radius, free["arm"]
+    lift, rate = (value[::10] for value in design.cams.motion.evaluate(CLOSE, 1))
+    limit = np.radians(np.where(rate > 1e-9, rise, np.where(rate < -1e-9, back, max(rise, back))))
+
+    def excess(prime: float, distance: float) -> float:
+        start = math.acos((arm**2 + distance**2 - prime**2) / (2.0 * arm * distance))
+        across = distance * np.cos(start + lift) - arm * (1.0 + sense * rate)
+        return float(np.max(np.abs(np.arctan2(across, distance * np.sin(start + lift))) - limit))
+
+    assert excess(radius, design.center_distance) == pytest.approx(0.0, abs=1e-5)
+    assert math.degrees(design.pressure_angle_rise) <= rise + 1e-9
+    assert math.degrees(design.pressure_angle_return) <= back + 1e-9
+    assert all(check.status == "pass" for check in design.check("pressure-angle"))
+    for share in (0.5, 0.9, 0.999):
+        for distance in np.linspace(arm - share * radius + 0.1, arm + share * radius - 0.1, 60):
+            assert excess(share * radius, distance) > 0.0
+    both = cam(SWING, free, {"sense": sense, "size": {"pressure_angle": min(rise, back), "curvature_radius": 1}})
+    assert radius < 0.99 * both.prime_radius
+
+
 def test_groove_and_cutter_stand_off_the_pitch_curve() -> None:
     design = cam(MOTION, ROLLER, {"prime_radius": 60, "cutter_radius": 30}, closure="groove")
     phi = CLOSE[::50]
