@@ -90,6 +90,7 @@ class FollowerCamLoads(_Loads):
         from gearlink.core.studies.loads.machine import Machine
         from gearlink.core.studies.loads.sources import Sources, gravity_of
 
+        self.require_pair()
         sources = Sources(self.section, self.own_links, self.sliding)
         if not self.masses and not sources.any and self.spec.spring is None:
             message = "without a mass, a spring or a force there is no load"
@@ -148,6 +149,23 @@ class FollowerCamLoads(_Loads):
         """A groove or a conjugate pair takes the force of either sense."""
         return self.spec.closure != "spring"
 
+    @property
+    def has_pair(self) -> bool:  # type: ignore[override]
+        """A conjugate pair."""
+        return self.spec.closure == "conjugate"
+
+    @property
+    def change_of_side(self) -> str:  # type: ignore[override]
+        """What a force of the other sense does."""
+        return super().change_of_side if self.has_pair else "the roller changes walls"
+
+    @property
+    def side_remedy(self) -> str:  # type: ignore[override]
+        """What holds it on one side."""
+        if self.has_pair:
+            return super().side_remedy
+        return f"{self.closing_remedy}, which holds the roller on one wall"
+
     def _cam(self, name: str) -> DiscCam:
         back = self.design.cams.back
         return back if name == "return" and back is not None else self.design.cams.main
@@ -171,15 +189,17 @@ class FollowerCamLoads(_Loads):
         if self.spec.closure == "groove":
             return np.abs(found)
         preload = 0.0 if self.section.roller is None else self.section.roller.preload
-        one, other = positive_drive(found, preload, (1.0, 1.0))
+        one, other = positive_drive(found, preload, self.roller_stiffness)
         return one if name == "main" else other
 
     @property
     def preload_needed(self) -> float | None:
-        """Minimum preload that keeps both rollers of a conjugate pair on their cams [N]: half the maximum force."""
-        if self.spec.closure != "conjugate":
+        """Minimum preload that keeps both rollers of a conjugate pair on their cams [N]."""
+        if not self.has_pair:
             return None
-        return 0.5 * max(abs(self.extreme(self.side_force, greatest).value) for greatest in (True, False))
+        high, low = (self.extreme(self.side_force, greatest).value for greatest in (True, False))
+        share = self.roller_stiffness[0] / sum(self.roller_stiffness)
+        return max(high * (1.0 - share), -low * share, 0.0)
 
     def cam_torque(self, phi: Reals) -> Reals:
         """Torque that drives the cam about its axis, counter-clockwise [N m]: eps T s'."""

@@ -105,7 +105,7 @@ class PressLoads(CamLoadsDesign):
     meshes = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
     output = "bed"
     outlines = loads_outline(pins, meshes, CONTACT, (*CAM_CHECKS, *PLACE_CHECKS))
-    on_two_sides = True
+    on_two_sides = has_pair = True
     design: cached_property[FlatbedPress] = geometry(FlatbedPress)
 
     @property
@@ -222,7 +222,7 @@ class PressLoads(CamLoadsDesign):
         net = self.side_force(phi)
         if not self._preload:
             return np.asarray(np.maximum(net if name == "main" else -net, 0.0))
-        both = positive_drive(net, self._preload, self._stiffness)
+        both = positive_drive(net, self._preload, self.roller_stiffness)
         return both[0] if name == "main" else both[1]
 
     def side_force(self, phi: Reals) -> Reals:
@@ -235,13 +235,6 @@ class PressLoads(CamLoadsDesign):
         roller = self.section.roller
         return 0.0 if roller is None else roller.preload
 
-    @property
-    def _stiffness(self) -> tuple[float, float]:
-        roller = self.section.roller
-        if roller is None or roller.stiffness is None:
-            return 1.0, 1.0
-        return roller.stiffness[0], roller.stiffness[1]
-
     @cached_property
     def preload_needed(self) -> float | None:
         """Minimum preload that keeps both rollers on their cams [N]; equal stiffness where the file gives none."""
@@ -250,7 +243,7 @@ class PressLoads(CamLoadsDesign):
         return self.extreme_of("preload").value
 
     def _needed(self, phi: Reals) -> Reals:
-        share = self._stiffness[0] / sum(self._stiffness)
+        share = self.roller_stiffness[0] / sum(self.roller_stiffness)
         net = self.side_force(phi)
         return np.asarray(np.maximum(net * (1.0 - share), -net * share))
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
@@ -21,6 +22,7 @@ from gearlink.core.studies.loads.design import LoadsDesign, Wanted
 if TYPE_CHECKING:
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.studies.loads.contact import LineContact, RollerOnCam
+    from gearlink.core.studies.loads.machine import Machine
 
 
 CAM_CHECKS = ("contact-pressure", "contact-loss", "roller-skid", "preload")
@@ -98,7 +100,30 @@ class CamLoadsDesign(LoadsDesign):
     rollers: ClassVar[tuple[str, ...]] = ("main", "return")
     derived = LoadsDesign.derived | _DERIVED
     on_two_sides: ClassVar[bool] = False
-    """Whether one follower has a roller for each sense of its force."""
+    """Whether the cams take the force of a follower in either sense."""
+    has_pair: ClassVar[bool] = False
+    """Whether one follower has two rollers on two cams, which a preload presses on both."""
+
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything together."""
+        self.require_pair()
+        return super().machine
+
+    def require_pair(self) -> None:
+        """Refuse a preload or its stiffness where no pair of rollers has it."""
+        for key in ("preload", "stiffness") if self.section.roller is not None and not self.has_pair else ():
+            if getattr(self.section.roller, key):
+                words = f"{key} is of two rollers of one follower on two cams, which this design has not"
+                raise NoSolution(words, key=f"loads.roller.{key}", fix="omit it")
+
+    @property
+    def roller_stiffness(self) -> tuple[float, float]:
+        """Stiffness of the contacts of both rollers, in one unit; equal where the file gives none."""
+        roller = self.section.roller
+        if roller is None or roller.stiffness is None:
+            return 1.0, 1.0
+        return roller.stiffness[0], roller.stiffness[1]
 
     def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller at input angles, with derivatives by the turned angle of its cam."""
@@ -395,18 +420,20 @@ class CamLoadsDesign(LoadsDesign):
         size = max(abs(high.value) for _, high in self.force_extremes)
         found = [math.degrees(place) for place in places(self.side_force, self.machine, size)]
         if found:
-            what, fix = "the follower changes cams", "press both rollers on (loads.roller.preload)"
             yield LOAD_REVERSAL.check(
                 "warn",
-                f"{what} {amount(len(found), 'time')} over the period and strikes there",
+                f"{self.change_of_side} {amount(len(found), 'time')} over the period and strikes there",
                 float(len(found)),
                 0.0,
                 shown=NO_NUMBER,
                 at=f"{listed(found)} deg",
-                fix=fix,
+                fix=self.side_remedy,
             )
         else:
-            yield LOAD_REVERSAL.check("pass", "the follower stays on one cam", 0.0, 0.0, shown=NO_NUMBER)
+            yield LOAD_REVERSAL.check("pass", "the follower stays on one side", 0.0, 0.0, shown=NO_NUMBER)
+
+    change_of_side: ClassVar[str] = "the follower changes cams"
+    side_remedy: ClassVar[str] = "press both rollers on (loads.roller.preload)"
 
 
 def _values(found: list[Extreme | None] | None) -> list[float | None] | None:

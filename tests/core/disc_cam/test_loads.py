@@ -10,6 +10,8 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.base.errors import NoSolution
+
 MOTION = [
     {"to": 120, "lift": 10, "law": "cycloidal"},
     {"to": 180},
@@ -121,6 +123,41 @@ def test_a_conjugate_pair_carries_either_sense() -> None:
     one, other = (design.contact_force(name, PHI) for name in ("main", "return"))
     assert one - other == pytest.approx(design.side_force(PHI), rel=1e-12, abs=1e-10)
     assert [len(design.raw(name)) for name in ("contact_force_max", "hertz_pressure_max")] == [2, 2]
+
+
+def test_the_preload_of_a_conjugate_pair_is_parted_by_the_stiffness() -> None:
+    """With the preload that is needed one roller is about to open and none does; each takes its share of the force."""
+    keys: dict[str, Any] = {"closure": "conjugate", "return_roller": {"radius": 10}, "spring": None}
+    keys |= {"follower": {**SLIDE["follower"], "offset": 0}}
+    roller = {"width": 15, "stiffness": [1e5, 3e5]}
+    needed = loads(**keys, loads={"roller": roller}).preload_needed
+    design = loads(**keys, loads={"roller": {**roller, "preload": needed}})
+    phi = np.linspace(0.0, 2.0 * math.pi, 7201)
+    one, other = (design.contact_force(name, phi) for name in ("main", "return"))
+    assert one == pytest.approx(needed + 0.25 * design.side_force(phi), rel=1e-9, abs=1e-9)
+    assert min(one.min(), other.min()) == pytest.approx(0.0, abs=1e-4 * needed)
+    assert [check.status for check in design.check("preload")] == ["pass"]
+
+
+@pytest.mark.parametrize("key", ["preload", "stiffness"])
+@pytest.mark.parametrize("closure", ["groove", "spring"])
+def test_one_roller_has_no_preload(closure: str, key: str) -> None:
+    """It silenced GL602 of a groove, and did nothing."""
+    value = 50 if key == "preload" else [1e5, 1e5]
+    design = loads(closure=closure, loads={"roller": {"width": 15, key: value}})
+    with pytest.raises(NoSolution, match="two rollers of one follower") as refused:
+        _ = design.power_identity
+    assert refused.value.key == f"loads.roller.{key}"
+
+
+def test_a_roller_that_changes_walls_is_told_what_holds_it() -> None:
+    follower, quick = {**SLIDE["follower"], "offset": 0}, {"closure": "groove", "loads": {"roller": {"width": 15}}}
+    design = loads(**quick, spring=None, follower=follower)
+    (found,) = design.check("load-reversal")
+    assert found.what.startswith("the roller changes walls 2 times")
+    assert found.fix == "give spring: {preload: N, rate: N/mm}, which holds the roller on one wall"
+    strong = loads(**quick, follower=follower, speed=100)
+    assert [check.status for check in strong.check("load-reversal")] == ["pass"]
 
 
 def test_a_flat_face_has_a_pressure_and_no_roller() -> None:
