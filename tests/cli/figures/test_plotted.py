@@ -188,6 +188,24 @@ def test_an_undercut_cam_is_drawn_not_for_manufacture() -> None:
     assert any("undercut" in text for text in texts)
 
 
+@pytest.mark.parametrize("sheet_of", ["workshop", "true to size"])
+def test_a_groove_is_drawn_with_both_walls(sheet_of: str) -> None:
+    """Its outer wall had been left out: the drawing was that of an open cam."""
+    made = design(worked("lift_cam"), closure="groove", spring=None)
+    workshop = sheet_of == "workshop"
+    figure = true_size.workshop_drawing(made, 0) if workshop else true_size.drawing(made, 0, true_size.Scale())
+    inner, outer = (curve(figure, name) for name in ("profile", "outer wall"))
+    scale = 25.4 * figure.get_size_inches()[0] / np.ptp(figure.axes[0].get_xlim())
+    apart = np.hypot(inner[0] - outer[0], inner[1] - outer[1]) * scale
+    printed = 1.0 if "1:1" in " ".join(words(figure)) else 0.5
+    assert apart == pytest.approx(
+        np.full_like(apart, 24.0 * printed), rel=1e-6
+    )  # at the same angle the roller's diameter
+    if workshop:
+        low, high = made.max_radius[1], made.min_radius[1]
+        assert any(f"outer wall R{high:.3f} to {low:.3f}" in text for text in words(figure))
+
+
 def test_what_fails_is_named_once_with_its_value() -> None:
     checks = design(worked("drawn_feed"), links__frame=100.0).check("gear-collision")
     text = failures([*checks, *checks])

@@ -87,6 +87,11 @@ def follower_discs(design: Any) -> tuple[DiscCam, ...]:
     return () if design.spec.is_flat else tuple(design.profiles)
 
 
+def outer_wall(design: Any) -> Any:
+    """The outer wall of a groove; None of a cam that is open."""
+    return design.cams.outer_wall if getattr(design.spec, "closure", "") == "groove" else None
+
+
 def pressure_limit(design: Any) -> float:
     """Maximum pressure angle that the file allows [deg]; of strokes with limits of their own the greater."""
     of_strokes = getattr(design.spec, "pressure_limits", None)

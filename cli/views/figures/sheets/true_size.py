@@ -57,7 +57,8 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     cam = discs(design)[index]
     theta = np.linspace(0.0, 2.0 * math.pi, _POINTS + 1)
     pitch, profile = cam.points(theta)
-    reach = cam.max_radius + 5.0 * scale.reduction
+    wall = cam_sheets.outer_wall(design)
+    reach = (cam if wall is None else wall).max_radius + 5.0 * scale.reduction
     low = complex(min(pitch.real.min(), -reach), min(pitch.imag.min(), -reach))
     high = complex(max(pitch.real.max(), reach), max(pitch.imag.max(), reach))
     size = (high - low) / scale.reduction
@@ -72,6 +73,9 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     axes.set_xlim(left, left + width * scale.reduction)
     axes.set_ylim(bottom, bottom + height * scale.reduction)
     axes.plot(profile.real, profile.imag, color=style.BLACK, linewidth=0.7, gid="profile")
+    if wall is not None:
+        outside = wall.points(theta)[1]
+        axes.plot(outside.real, outside.imag, color=style.BLACK, linewidth=0.7, gid="outer wall")
     if cam.roller_radius:
         axes.plot(pitch.real, pitch.imag, color=style.GREY, linewidth=0.35, linestyle=style.DASHED, gid="pitch curve")
     for curve in axes.lines:
@@ -205,10 +209,11 @@ def workshop_drawing(design: Any, index: int) -> Figure:
     """One cam: outline, roller and axes, bore and keyway, start mark, radii of each degree, title block."""
     cams = cam_sheets.discs(design)
     cam = cams[index]
-    low, high = _reach(cam)
+    wall = cam_sheets.outer_wall(design)
+    low, high = _reach(cam, wall)
     page, scale = paper.fitted(high - low)
     made, axes = paper.sheet(page)
-    _view(axes, page, cam, scale, shaft_of(design, index))
+    _view(axes, page, (cam, wall), scale, shaft_of(design, index))
     paper.notes(axes, page, notes(design, cam))
     radii = enumerate(cam_sheets.pitch_radii(cam).tolist())
     paper.columns(axes, page, ("°", "R"), [(f"{degree}", f"{radius:.3f}") for degree, radius in radii], page.columns)
@@ -234,22 +239,27 @@ def material_of(design: Any) -> str:
     return f"E {design.spec.material.elastic_modulus:g} N/mm²" if given else ""
 
 
-def _reach(cam: Any) -> tuple[complex, complex]:
+def _reach(cam: Any, wall: Any) -> tuple[complex, complex]:
     """Lower left and upper right corner of what is drawn [mm]."""
     pitch, profile = cam.points(np.linspace(0.0, _TURN, 721))
+    if wall is not None:
+        profile = wall.points(np.linspace(0.0, _TURN, 721))[1]
     roller, radius = complex(pitch[0]), cam.roller_radius
     beside = roller + radius * np.array([1, -1, 1j, -1j]) if radius else cam.face()
     every = np.concatenate([pitch, profile, beside])
     return complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())
 
 
-def _view(axes: Axes, page: paper.Page, cam: DiscCam, scale: float, shaft: float) -> None:
+def _view(axes: Axes, page: paper.Page, walls: tuple[DiscCam, Any], scale: float, shaft: float) -> None:
     """The cam at cam angle 0 about its axis, visible edges wide, pitch curve and centre lines thin chains."""
-    low, high = _reach(cam)
+    cam, wall = walls
+    low, high = _reach(cam, wall)
     axis = page.view.middle - scale * 0.5 * (low + high)
     theta = np.linspace(0.0, _TURN, 7201)
     pitch, profile = cam.points(theta)
     paper.line(axes, axis + scale * profile, 0.5, gid="profile")
+    if wall is not None:
+        paper.line(axes, axis + scale * wall.points(theta)[1], 0.5, gid="outer wall")
     roller, touching = complex(pitch[0]), _follower(cam)
     if cam.roller_radius:
         paper.line(axes, axis + scale * pitch, 0.25, linestyle=style.CHAIN, gid="pitch curve")
@@ -322,12 +332,16 @@ def notes(design: Any, cam: DiscCam) -> list[str]:
     sized = [str(line) for line in _tolerances(design)]
     rolls = bool(cam.roller_radius)
     follower = f"Roller ⌀{2.0 * cam.roller_radius:g} mm" if rolls else "Flat-faced follower"
+    wall = cam_sheets.outer_wall(design)
+    made = f"the profile is the envelope of the {'roller' if rolls else 'face'}"
+    if wall is not None:
+        radii = f"R{wall.min_radius:.3f} to {wall.max_radius:.3f}"
+        made = f"groove between two envelopes of the roller, the outer wall {radii}"
     return [
         f"Cam turns {'counter-' if cam.sense > 0 else ''}clockwise. {follower}. "
         f"Start mark (red): {'roller' if rolls else 'contact'} at cam angle 0.",
         f"Smallest convex radius of the {'pitch curve' if rolls else 'profile'} "
-        f"{_number(cam.min_curvature_radius.value)} mm; the profile is the "
-        f"envelope of the {'roller' if rolls else 'face'}{', undercut' if is_cut(cam) else ''}.",
+        f"{_number(cam.min_curvature_radius.value)} mm; {made}{', undercut' if is_cut(cam) else ''}.",
         _toleranced(sized, [*_errors(design)]),
         f"Table: radius of the {'centre of the roller' if rolls else 'profile'} [mm] over the angle on the cam [deg], "
         "counter-clockwise from the mark.",
