@@ -123,6 +123,12 @@ def test_the_centre_distance_of_a_table_is_that_of_its_shifts() -> None:
     assert cell(figure, "centre distance") == f"{plain * math.cos(at) / math.cos(working):.6g}"
 
 
+def test_the_title_block_has_the_material_of_the_rating() -> None:
+    """The field had been left to be filled in; the table has the steel as well."""
+    for part, steel in (("gear1", "16MnCr5"), ("gear2", "18CrNiMo7-6")):
+        assert words(part_drawing.drawn(whole("rated_pair"))[part]()).count(steel) == 2
+
+
 def test_an_idler_names_both_mates() -> None:
     lines = part_drawing.makers(whole("drawn_feed"))["gear3"]().lines()
     assert [value for item, _, value, _ in lines if item == "teeth of the mating gear"] == [20, 60]

@@ -112,8 +112,7 @@ def draw(design: Any, makes: Sequence[Callable[[], Part]], number: str) -> Figur
         _polar_table(axes, page, rows)
     paper.notes(axes, page, _notes(design, part, rows))
     document = f"{_sort(part)}, workshop drawing"
-    material = "" if _is_gear(part) else true_size.material_of(design)
-    paper.block(axes, page, f"{design.spec.name}: {part.title}", document, scale, number, material)
+    paper.block(axes, page, f"{design.spec.name}: {part.title}", document, scale, number, _material(design, part))
     return made
 
 
@@ -138,6 +137,13 @@ def _first(points: Callable[[Reals], Points], parameter: Reals) -> Points:
 
 def _layers(part: Part) -> set[str]:
     return {layer for stretch in part.stretches for layer in stretch.layers}
+
+
+def _material(design: Any, part: Part) -> str:
+    """That of the table of a gear, where a rating names it; of other parts what the file says of it."""
+    if part.lines is None or not _is_gear(part):
+        return true_size.material_of(design)
+    return next((gear_text(value) for item, _, value, _ in part.lines() if item == "material"), "")
 
 
 def _is_rack(part: Part) -> bool:
