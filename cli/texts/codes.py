@@ -335,6 +335,8 @@ def explanations() -> dict[str, Rule]:
     return {rule.code: rule for rule in (*FILES, *STUDIES, *TOLERANCES, *VALUES)} | rules()
 
 
+_MESHES = {"cylinder_gears": "cylinder.gears", "pinion_rack": "bed.pinion"}
+"""Sections of the meshes that a message names in front."""
 _PATH = re.compile(r"\b[a-z][a-z0-9_]*(?:\.[a-z][a-z0-9_]*)+\b")
 
 
@@ -353,6 +355,10 @@ def key_of(data: dict[str, Any], check: Check) -> str:
         own = check._replace(what=check.what.removeprefix(f"{member}: "), remedy=remedy)
         return f"{design}.{key_of(data['members'][member]['design'], own)}"
     known = explanations().get(check.code)
+    section = _MESHES.get(check.what.partition(": ")[0], "")
+    if section and _has(data, section):
+        within = (f"{section}.{key}" for key in (known.keys if known else ()))
+        return next((key for key in within if _has(data, key)), section)
     # The keys of a remedy may stand anywhere: what is about to be changed is not what the finding is about.
     for path in (
         *([check.what] if check.what.isidentifier() else ()),

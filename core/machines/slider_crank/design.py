@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
-from gearlink.core.base.remedies.ways import down, either, up
+from gearlink.core.base.remedies.ways import Way, down, either, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.parts.gears.checks import gear_ways
+from gearlink.core.parts.gears.codes import FILLET, ROOT_CLEARANCE
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.slider_crank import (
     SLIDER_QUANTITIES,
@@ -51,6 +53,21 @@ _MOTION = (
     "return_time",
     *SLIDER_SPEEDS,
 )
+
+
+def rack_ways() -> dict[str, tuple[Way, ...]]:
+    """The ways for the teeth of pinion and racks: its shift where the file gives one, either number of teeth, both."""
+    teeth = (
+        up("racks.fixed", step=1.0),
+        up("racks.moving", step=1.0),
+        up("racks.fixed", "racks.moving", step=1.0),
+    )
+    shift = either("racks.profile_shift[0]", step=0.01)
+    ways = {name: (*shift, *ways) for name, ways in gear_ways(*teeth, angle="racks.pressure_angle").items()}
+    return ways | {
+        ROOT_CLEARANCE.name: (up("racks.clearance", step=0.01), up("racks.tool.addendum", step=0.01)),
+        FILLET.name: (*shift, *teeth),
+    }
 
 
 class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
@@ -98,7 +115,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         (*names("velocity", "acceleration"), *SLIDER_SPEEDS, "input_speed", "turn_time", "forward_time", "return_time")
     )
     requirements = Design.requirements | {"stroke", "quick_return_ratio"}
-    ways = {
+    ways = rack_ways() | {
         "transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"), down("quick_return_ratio"))
     }
 

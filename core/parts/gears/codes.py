@@ -7,10 +7,10 @@ from gearlink.core.base.report import Rule
 
 def _within(*keys: str) -> tuple[str, ...]:
     """Keys as they stand in the section of gears of a machine."""
-    return tuple(f"{section}.{key}" for section in ("gears", "input_gears") for key in keys)
+    return tuple(f"{section}.{key}" for section in ("gears", "input_gears", "racks") for key in keys)
 
 
-_TEETH = ("profile_shift", "teeth", "gears", "input_gears", "pin_radius")
+_TEETH = ("profile_shift", "teeth", "gears", "input_gears", "racks", "pin_radius")
 
 AT_LIMITS = tuple(f"{name}-at-limits" for name in ("contact-ratio", "interference", "root-clearance", "tip-fouling"))
 """Names of the checks that look at the limits of the centre distance."""
@@ -79,7 +79,7 @@ ROOT_CLEARANCE = Rule(
     "center_distance_allowance lets them, with the root that the upper thickness allowance gives",
     "ISO 21771; the limits are usual practice",
     ("root-clearance", AT_LIMITS[2]),
-    ("clearance", *_TEETH),
+    ("clearance", *_within("clearance"), *_TEETH),
 )
 SLIDING = Rule(
     "GL209",

@@ -264,6 +264,20 @@ def test_of_a_section_it_is_the_key_that_the_remedy_changes() -> None:
     assert key_of(data, missed._replace(remedy=(("gears.idler", 43),))) == "links"
 
 
+@pytest.mark.parametrize(
+    ("what", "key"),
+    [
+        ("pinion_rack: clearance at the root of gear 1", "bed.pinion.clearance"),
+        ("cylinder_gears: clearance at the root of gear 1", "cylinder.gears"),
+        ("clearance at the root of gear 1", "input_gears"),
+    ],
+)
+def test_of_a_mesh_that_is_named_it_lies_in_its_section(what: str, key: str) -> None:
+    """Findings of all gears of a press had stood at its input gears."""
+    data = {"input_gears": {"module": 4}, "cylinder": {"gears": {"module": 3}}, "bed": {"pinion": {"clearance": 0.1}}}
+    assert key_of(data, Check("GL205", "root-clearance", "warn", what)) == key
+
+
 def test_of_a_machine_it_is_the_key_of_the_member_or_the_relation() -> None:
     data = {
         "speed": 140,

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from factory import design
 
+from gearlink.cli.texts.codes import key_of
+
 GIVEN: dict[str, Any] = {
     "kind": "slider-crank",
     "stroke": 310.0,
@@ -65,6 +67,31 @@ def test_each_mesh_loses_its_share_of_what_it_passes_on(lossy: str) -> None:
     wanted = (350.0 / 0.9 + 350.0) * 2.0 * 0.310 / (2.0 * math.pi)
     assert loads.raw("input_torque_mean") == pytest.approx(wanted, rel=1e-9)
     assert loads.power_identity < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("racks", "remedy"),
+    [
+        ({"fixed": 12, "moving": 30}, {"racks.fixed": 20}),
+        ({"fixed": 12, "moving": 12}, {"racks.fixed": 20, "racks.moving": 20}),
+        ({"fixed": 14, "moving": 30, "profile_shift": [0.1, 0]}, None),
+        ({"fixed": 30, "moving": 30, "clearance": 0.02}, {"racks.clearance": 0.15}),
+    ],
+)
+def test_teeth_that_fail_are_told_a_change_that_passes(racks: dict[str, Any], remedy: dict[str, float] | None) -> None:
+    """Their findings stand in the section racks."""
+    data = {**GIVEN, "racks": {"module": 4.0, "side": "opposite", **racks}}
+    failing = [check for check in design(data).report("analyze").checks if check.status == "fail"]
+    assert failing
+    for check in failing:
+        assert key_of(data, check).startswith("racks")
+        assert check.remedy
+        if remedy is not None:
+            assert dict(check.remedy) == remedy
+        keys = {key.replace(".", "__"): value for key, value in check.remedy}
+        if not any("[" in key for key in keys):
+            (*again,) = design(data, **keys).check(check.name)
+            assert all(each.status != "fail" for each in again)
 
 
 TURNING: dict[str, dict[str, Any]] = {
