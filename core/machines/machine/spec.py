@@ -182,7 +182,9 @@ class MainShaft(Spec):
         for name in ("members", "ratios"):
             given = getattr(self, name)
             if given is not None and len(given) != count:
-                raise _refuse("GL111", name, f"{name}: {len(given)} values (one for each of the {count} discs)")
+                free = "; a disc without a mechanism takes any name, such as motor" if name == "members" else ""
+                message = f"{name}: {amount(len(given), 'entry', 'entries')} for {count} discs\ngive one for each{free}"
+                raise _refuse("GL111", name, message)
         if self.ratios is not None and 0.0 in self.ratios:
             raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 does not move")
         names = [name for disc in self.acting for name in disc]

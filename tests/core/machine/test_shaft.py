@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
 from machines import FEED, ROCKER, cam, machine, of
+from pydantic import ValidationError
 from scipy.integrate import solve_ivp
 
+from gearlink.core.base.wording import amount
 from gearlink.core.machines.machine.loads import MachineLoads
 from gearlink.core.machines.machine.shaft import Chain, Swing
+from gearlink.core.machines.machine.spec import MainShaft
 
 CHAINS = [
     ([5.0, 11.0, 22.0], [1e5, 2e5]),
@@ -68,6 +72,12 @@ def test_ratios_reduce_discs_and_shafts_to_the_main_shaft() -> None:
     plain = {"inertias": [2, 2, 1], "stiffnesses": [8000, 12000]}
     found = [machine({"m": of(cam(FEED))}, shaft=each).natural_frequencies for each in (shaft, plain)]
     assert found[0] == pytest.approx(found[1], rel=1e-12)
+
+
+@pytest.mark.parametrize(("key", "given"), [("members", ["arm"]), ("ratios", [1, 2])])
+def test_every_disc_has_its_entry(key: str, given: list[Any]) -> None:
+    with pytest.raises(ValidationError, match=f"{key}: {amount(len(given), 'entry', 'entries')} for 3 discs"):
+        MainShaft.model_validate({"inertias": [1, 1, 1], "stiffnesses": [5000, 5000], key: given})
 
 
 def test_several_members_stand_on_one_disc() -> None:
