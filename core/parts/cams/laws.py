@@ -589,7 +589,7 @@ def _symmetric(name: str, asked: str) -> FirstHalf:
     meant = f"did you mean {near[0]!r}? From" if near else "from"
     raise NoSolution(
         f"unknown motion law {named(asked)}: {meant} rest to rest: {', '.join(REST_TO_REST)}; from rest to speed: "
-        "half-<law>, velocity-<law>"
+        "half-<law>, velocity-<law>; with numbers: {scca: [a, b, c, d]} or {type: ...}"
     )
 
 

@@ -30,8 +30,8 @@ class _LawNames:
 
         short = ("half-345", "half-4567", "velocity-345", "velocity-4567")
         four = {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}
-        numbers = {"scca": four, "half-scca": four, "velocity-scca": four}
-        numbers |= {"quintic": {"type": "number"}, "septic": {"type": "number"}}
+        numbers = {name: four | {"description": words} for name, words in _OF_SHARES.items()}
+        numbers |= {name: {"type": "number", "description": words} for name, words in _OF_KAPPA.items()}
         return {
             "anyOf": [
                 *_shaped_schemas(handler),
@@ -40,6 +40,18 @@ class _LawNames:
                 {"type": "object", "properties": numbers, "additionalProperties": False, "minProperties": 1},
             ]
         }
+
+
+_SHARES = "shares of the rise with sine, constant, cosine and no acceleration, sum 1; the second half mirrors the first"
+_OF_SHARES = {
+    "scca": f"{_SHARES}; [0, 1, 0, 0]: parabolic motion",
+    "half-scca": "rest to speed by the first half of the law with these shares, see scca",
+    "velocity-scca": "rest to speed, the velocity follows the law with these shares, see scca",
+}
+_OF_KAPPA = {
+    "quintic": "rest to speed by a polynomial of degree 5: its rise over end speed times time, 0.4 to 0.6",
+    "septic": "rest to speed by a polynomial of degree 7: its rise over end speed times time, 3/7 to 4/7",
+}
 
 
 def _validated(value: Any, handler: Any) -> Any:

@@ -289,6 +289,7 @@ def test_a_part_of_a_name_and_a_slip_are_near(gearlink: Any, word: str, near: st
         ("translating-flat", "value", "follower.type"),
         ("inflection", "key", "cams.NAME.motion[].law.inflection"),
         ("grades", "key", "IT grade that may be chosen"),
+        ("scca", "key", "[0, 1, 0, 0]: parabolic motion"),
         ("Whitworth", "term", "more time for one stroke"),
         ("profile error", "term", "cam's profile as manufactured"),
     ],

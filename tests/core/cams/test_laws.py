@@ -325,6 +325,7 @@ def test_rounding_past_the_end_is_no_error() -> None:
     ("definition", "words"),
     [
         ("cycloid", "did you mean 'cycloidal'"),
+        ("parabolic", "{scca: [a, b, c, d]}"),
         ("velocity-354", "did you mean 'velocity-345'"),
         ("half-simple-harmonic", "half-cycloidal"),
         ("half-harmonic", "jumps"),
