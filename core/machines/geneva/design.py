@@ -14,8 +14,8 @@ import numpy as np
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
 from gearlink.core.base.real_speed import RealSpeed, per_time
-from gearlink.core.base.remedies.ways import either, thinner
-from gearlink.core.base.report import Check, Status, Table, safely_below, without_noise
+from gearlink.core.base.remedies.ways import down, either, thinner, up
+from gearlink.core.base.report import Check, Status, Table, safely_above, safely_below, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
@@ -442,7 +442,7 @@ class GenevaDrive(RealSpeed, Design):
     requirements = Design.requirements | {"slots", "type", "limits.steps_per_minute"}
     ways = {
         "locking": either("locking_radius", "pin_radius", "center_distance"),
-        "pin-entry": either("locking_clearance", "slot_clearance"),
+        "pin-entry": (down("locking_clearance", step=0.005), up("slot_clearance", step=0.005)),
         "shaft-clearance": (*thinner("shaft_radius", "hub_radius"), *either("center_distance")),
     }
 
@@ -724,7 +724,9 @@ class GenevaDrive(RealSpeed, Design):
             return
         off, most = self.wheel_radius * math.sin(0.5 * play), 0.5 * self.spec.slot_clearance
         what = "offset of a slot at its mouth, of the locked wheel"
-        fix = "lower locking_clearance, raise slot_clearance, or chamfer the mouths of the slots"
+        fix = f"raise slot_clearance to {safely_above(2.0 * off)} mm, or chamfer the mouths of the slots"
+        if off > most > 0.0:
+            fix = f"lower locking_clearance to {safely_below(self.spec.locking_clearance * most / off)} mm, {fix}"
         yield PIN_ENTRY.check("warn" if off > most else "pass", what, off, most, "mm", fix=fix)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import cmath
 import itertools
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -254,6 +255,22 @@ def test_running_clearance() -> None:
             design(GIVEN, type=kind, slot_clearance=2.0 * near * (1.0 + 1e-12))
     with pytest.raises(ValueError, match="give locking_radius"):
         design(GIVEN, locking_radius=None, locking_clearance=0.1)
+
+
+def test_the_clearances_of_the_fix_pass_and_are_not_nothing() -> None:
+    """The suggestion had been a wheel that is locked without clearance."""
+    tight = design(GIVEN, locking_clearance=0.05, slot_clearance=0.04)
+    (check,) = tight.check("pin-entry")
+    told = re.fullmatch(
+        r"lower locking_clearance to ([\d.]+) mm, raise slot_clearance to ([\d.]+) mm, or .*", check.fix
+    )
+    assert told
+    for key, value in zip(("locking_clearance", "slot_clearance"), map(float, told.groups()), strict=True):
+        (again,) = design(GIVEN, **{"locking_clearance": 0.05, "slot_clearance": 0.04, key: value}).check("pin-entry")
+        assert again.status == "pass"
+    assert 0.0 < float(told[1]) < 0.05
+    tried = [dict(each) for way in tight.ways["pin-entry"] if (each := way.remedy([0.05], 4))]
+    assert tried == [{"locking_clearance": 0.03}, {"slot_clearance": 0.07}]
 
 
 def test_no_torque_beside_the_ends_of_a_step() -> None:
