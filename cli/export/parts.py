@@ -101,7 +101,12 @@ def follower_cam(design: Any) -> Makers:
     """The cam of a follower, or both walls of its groove; return cam and cutter path where the file has them."""
     cams, cutter = design.cams, design.spec.cam.cutter_radius
     if design.spec.is_flat:
-        return {"main_cam": lambda: flat_cam("main_cam", cams.flat)}
+        flat: Makers = {"main_cam": lambda: flat_cam("main_cam", cams.flat)}
+        if cutter is not None:
+            flat["cutter"] = lambda: flat_cam(
+                "cutter", cams.flat.outside(cutter), f"path of a cutter of radius {cutter:.9g} mm"
+            )
+        return flat
     found: Makers = {"main_cam": lambda: disc_cam("main_cam", cams.main)}
     if design.spec.closure == "groove":
         found = {
@@ -758,8 +763,12 @@ def disc_cam(name: str, cam: DiscCam, words: str = "") -> Part:
     )
 
 
-def flat_cam(name: str, cam: FlatCam) -> Part:
-    """A closed cam under a flat face: its profile over a revolution, a vertex at each joint of its law."""
+def flat_cam(name: str, cam: FlatCam, words: str = "flat face") -> Part:
+    """A closed cam under a flat face: its profile over a revolution, a vertex at each joint of its law.
+
+    Parameters
+        words : what it is
+    """
 
     def stretch(low: float, high: float) -> Stretch:
         def inside(theta: Reals) -> Reals:
@@ -773,12 +782,12 @@ def flat_cam(name: str, cam: FlatCam) -> Part:
     undercut = cam.min_curvature_radius.value <= 0.0
     return Part(
         name=name,
-        title="cam",
+        title=cam.name,
         stretches=tuple(stretch(low, high) for low, high in pairwise(_joints(cam))),
         closed=True,
         circles=(Circle("BASE_CIRCLE", cam.min_radius),),
         notes=(
-            f"flat face, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
+            f"{words}, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
             "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
             "base circle: the largest about the axis inside the profile",
         ),

@@ -467,8 +467,7 @@ class Making:
         radius = self.spec.cam.cutter_radius
         assert radius is not None, "needed with a cutter alone"
         if self.spec.is_flat:
-            point, normal = self.cams.flat.points(phi)
-            return point + radius * normal
+            return self.cams.flat.outside(radius).points(phi)[0]
         main = self.cams.main
         reach = main.roller_radius - radius
         return profile.profile_points(phi, main.path(phi, 1), sense=main.sense, roller_radius=reach)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -115,6 +115,15 @@ class FlatCam:
         """Points of the profile and outward normals there, in the cam's frame."""
         found, back = self.touch(phi), np.exp(-1j * self.sense * phi)
         return back * found.point, back * found.normal
+
+    def outside(self, distance: float) -> FlatCam:
+        """The curve at a distance outside the profile, such as the path of a cutter of that radius [mm]."""
+
+        def touch(phi: Reals) -> Touch:
+            found = self.touch(phi)
+            return found._replace(point=found.point + distance * found.normal, radius=found.radius + distance)
+
+        return replace(self, name="cutter path", touch=touch)
 
     def _most(self, course: Callable[[Reals], Reals]) -> Extreme:
         return maximum_over(course, joints=self.joints, samples=SAMPLES)

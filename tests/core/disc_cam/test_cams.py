@@ -9,6 +9,7 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.cli.export.parts import follower_cam
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.cams import size
 from gearlink.core.parts.cams.follower_motion import motion_of
@@ -119,6 +120,22 @@ def test_the_curvature_of_a_sized_cam_is_its_limit(offset: float) -> None:
     for share in (1.001, 1.1, 1.5):
         larger = cam(MOTION, {**ROLLER, "offset": offset}, {"prime_radius": share * design.prime_radius})
         assert larger.min_curvature_radius > 40.0
+
+
+def test_the_cutter_of_a_flat_cam_touches_it_and_is_exported() -> None:
+    """The table cutter was there, no file."""
+    body = {"base_radius": 80, "cutter_radius": 30}
+    design = cam(MOTION, {"type": "translating-flat"}, body)
+    profile = design.cams.flat.points(CLOSE)[0]
+    centers = design.making.cutter_points(CLOSE[::500])
+    nearest = np.abs(profile[:, None] - centers[None, :]).min(axis=0)
+    assert nearest == pytest.approx(np.full(nearest.size, 30.0), rel=1e-6)
+    parts = follower_cam(design)
+    assert list(parts) == ["main_cam", "cutter"]
+    (first, *_) = parts["cutter"]().stretches
+    theta = np.linspace(first.low, first.high, 9)
+    assert first.points(theta)[0] == pytest.approx(design.making.cutter_points(theta), abs=1e-6)
+    assert list(follower_cam(cam(MOTION, {"type": "translating-flat"}, {"base_radius": 80}))) == ["main_cam"]
 
 
 @pytest.mark.parametrize("sense", [1, -1])
