@@ -82,9 +82,9 @@ _REASONS = """## Where a goal is missed, and why
   after four files where these tell that the rest takes as long. Two processes are 1.5 to 1.7 times as fast as one, and
   no faster on a busy machine: forking, sending results back and shared caches take the rest.
   `check`, and a summary without JSON and `--out`, compute the quantities that the checks use, and no table.
-* **Studies by class.** Cams, grippers and wide swings are sought together, 1 to 2 ms a design; a closed cycle of a wide
-  swing takes about 10 ms, for free sector, contour and time are found for each stroke. In a machine or a press each
-  design refines its extremes by itself, in five to seven rounds of 0.5 ms, most of it numpy calls.
+* **Studies by class.** Cams, grippers and wide swings are sought together, 0.5 to 3 ms a design; a wide swing with a
+  slider takes 7 ms, a closed cycle 10 ms, most of it for cutting the contour, one on a crank-rocker (`drive`) 23 ms,
+  for it is still computed by itself. In a machine or a press each design refines its extremes by itself as well.
 * **Studio.** The key results are shown first, findings and animation follow from a second process, sheets when the
   slider rests. Results of commands that take more than 40 ms (loads, register, many searches) follow with the findings.
 """
