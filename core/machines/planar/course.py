@@ -21,6 +21,7 @@ from gearlink.core.machines.planar.system import (
     Jets,
     Row,
     System,
+    at_rest,
     cam_row,
     drive_rows,
     driven_row,
@@ -411,14 +412,15 @@ class Start:
                 "or slots, or give more drives (drive.with)",
             )
         rows = joint_rows(structure, {}) + drive_rows(structure, self.exact_starts)
-        rows += self._mesh_rows() + self._cam_rows()
+        rows += self.mesh_rows() + self._cam_rows()
         system = System(len(structure.bodies), pins_of(structure), tuple(rows))
         if freedoms < drives:
             raise self._held(system, freedoms, drives)
         self._require_matching(system)
         return system
 
-    def _mesh_rows(self) -> list[Row]:
+    def mesh_rows(self) -> list[Row]:
+        """Start values that count, in place of the meshes."""
         structure, found = self.structure, []
         for name, mesh in structure.meshes.items():
             own = structure.tied.get(name)
@@ -717,14 +719,10 @@ class Start:
         structure, (x, t) = self.structure, self.closed
         jets = Jets([x[None]], [t[None]])
         rows = [*joint_rows(structure, self.slide_turns), *drive_rows(structure, self.exact_starts)]
-        for mesh in structure.meshes.values():
-            row = mesh_row(mesh, structure.size)
-            still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
-            rows.append(row._replace(constant=float(still[0, 0])))
+        standing = [mesh_row(mesh, structure.size) for mesh in structure.meshes.values()]
         for name, cam in structure.cams.items():
-            row = cam_row(cam, structure.size, 0.0)._replace(lift=self.lifts[name])
-            still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
-            rows.append(row._replace(constant=float(still[0, 0])))
+            standing.append(cam_row(cam, structure.size, 0.0)._replace(lift=self.lifts[name]))
+        rows += [at_rest(row, len(structure.bodies), jets) for row in standing]
         system = System(len(structure.bodies), pins_of(structure), tuple(rows))
         self._require_matching(system)
         return system
@@ -781,12 +779,10 @@ class AsMade(Start):
         """The equations of the motion; gears stand as in the nominal design."""
         structure, nominal = self.structure, self.nominal
         rows = [*joint_rows(structure, nominal.slide_turns), *drive_rows(structure, self.exact_starts)]
-        x, t = nominal.closed
-        for mesh in structure.meshes.values():
-            row = mesh_row(mesh, structure.size)
-            jets = Jets([x[None] * (nominal.structure.size / structure.size)], [t[None]])
-            still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
-            rows.append(row._replace(constant=float(still[0, 0])))
+        every, (x, t) = (structure.count, 1), nominal.closed
+        jets = Jets([np.tile(x * (nominal.structure.size / structure.size), every)], [np.tile(t, every)])
+        rows += [at_rest(mesh_row(mesh, structure.size), len(structure.bodies), jets)
+                 for mesh in structure.meshes.values()]  # fmt: skip
         for name, cam in nominal.structure.cams.items():
             rows.append(contact_row(cam, structure, nominal.lifts[name], self.errors.get(name, {})))
         return System(len(structure.bodies), pins_of(structure), tuple(rows))

@@ -21,20 +21,35 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Check
 from gearlink.core.base.results import keep
 from gearlink.core.base.spec_paths import value_at
-from gearlink.core.machines.planar.course import AsMade, Course
+from gearlink.core.machines.planar.course import AsMade, Course, Start
 from gearlink.core.machines.planar.design import PlanarMechanism, folded
 from gearlink.core.machines.planar.dyads import Dyad, dyads
 from gearlink.core.machines.planar.extremes import Coefficient, Wanted, humps
-from gearlink.core.machines.planar.structure import Structure
-from gearlink.core.machines.planar.system import Jets, System, drive_rows, joined, joint_rows, pins_of, split
+from gearlink.core.machines.planar.structure import GearJoint, Line, RackJoint, Structure
+from gearlink.core.machines.planar.system import (
+    Jets,
+    System,
+    at_rest,
+    drive_rows,
+    joined,
+    joint_rows,
+    mesh_row,
+    pins_of,
+    split,
+)
+from gearlink.core.machines.planar.wiring import FRAME, carrier_of
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.linkages.checks import transmission_judged
 from gearlink.core.parts.linkages.codes import CLOSURE, TRANSMISSION_ANGLE
 from gearlink.core.studies.tolerance.sources import Parts
 
 _PIN = "pins."
-_SIZES = re.compile(r"(frame|links)\.\w+(\.\w+\[[01]\]|\[[012]\])|(slides|slots)\.\w+\.through\[[01]\]")
+_SIZES = re.compile(
+    r"(frame|links)\.\w+(\.\w+\[[01]\]|\[[012]\])|(slides|slots)\.\w+\.(through\[[01]\]|direction|angle)"
+    r"|meshes\.\w+\.(direction|module|pressure_angle)"
+)
 _OF_CAMS = re.compile(r"cams\.(\w+)\.(profile|roller_radius|phase|face)")
+_OF_GAPS = ("gear-collision", "shaft-clearance", "shaft-seat")
 _SIDES = ("max", "max_at", "min", "min_at", "span")
 _CERTAIN = 0.25
 """Of h, below the 1/2 of the theorem: for the way between two places of the grid."""
@@ -103,6 +118,53 @@ class _Hump(NamedTuple):
     side: int = 1
 
 
+class _There(NamedTuple):
+    """A place of the nominal design.
+
+    Fields
+        q, y : input and unknowns
+        inverse, norm : of the matrix, and of its inverse
+        bend : K
+    """
+
+    q: float
+    y: Reals
+    inverse: Reals
+    norm: float
+    bend: float
+
+    def leaves(self, system: System, change: Reals, count: int) -> Mask:
+        """Mechanisms of which the theorem does not say that one of their positions lies here.
+
+        Parameters
+            change : (count,) array - by how much their matrices may differ
+        """
+        gaps = system.values(Jets.of(np.broadcast_to(self.y, (count, self.y.size))), 0, np.full(count, self.q))
+        eta, share = np.linalg.norm(gaps @ self.inverse.T, axis=1), self.norm * change
+        with np.errstate(divide="ignore"):
+            h = self.norm * self.bend * (1.0 + change) * eta / (1.0 - share) ** 2
+        return np.asarray((share >= 0.5) | ~(h < _CERTAIN))
+
+
+def _places(system: System, q: Reals, jets: Jets) -> Iterator[_There]:
+    """The places of a motion at inputs, from its first derivatives."""
+    y, matrix = joined(jets.x[0], jets.t[0]), system.matrix(jets)
+    inverse, sizes = np.linalg.inv(matrix), np.linalg.svd(matrix, compute_uv=False)
+    for i in range(q.size):
+        here = Jets([part[i : i + 1] for part in jets.x], [part[i : i + 1] for part in jets.t])
+        yield _There(float(q[i]), y[i], inverse[i], 1.0 / float(sizes[i, -1]), system.bounds(here)[0])
+
+
+def _lines(structure: Structure) -> list[Line]:
+    """Lines of slides, slots and racks."""
+    racks = [mesh.line for mesh in structure.meshes.values() if isinstance(mesh, RackJoint)]
+    return [*(each.line for group in (structure.slides, structure.slots) for each in group.values()), *racks]
+
+
+def _radii(mesh: GearJoint | RackJoint) -> tuple[float, ...]:
+    return (mesh.radius,) if isinstance(mesh, RackJoint) else mesh.radii
+
+
 class PlanarSamples:
     """Samples of a nominal design; `core.studies.tolerance_study.problem.ToleranceAxis`.
 
@@ -127,16 +189,23 @@ class PlanarSamples:
         self.parts = Parts({}, pins=pins, others={f"cams.{name}.profile": 0.0 for name in nominal.spec.cams})
 
     def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
-        """Whether sizes, plays and extremes alone are asked for, of a mechanism without teeth."""
-        spec = self.nominal.spec
+        """Whether sizes, plays and extremes alone are asked for, and no gear comes nearer to another or to a shaft."""
         for key in keys:
             if key.startswith("cams.") and not _OF_CAMS.fullmatch(key):
                 what = f"{key} is no size of a part: the profile is cut by the law of the file"
                 raise NoSolution(what, key="tolerance.sources", fix="name cams.NAME.profile, roller_radius or phase")
-        shafts_move = len(spec.shafts) > 1 and any(key.startswith("frame.") for key in keys)
-        if spec.meshes or shafts_move or not all(self._is_size(key) for key in keys):
+        if not all(self._is_size(key) for key in keys) or not self._gaps_stand(keys):
             return False
         return all(self._served(name) for name in names) and not any(self._still(name) for name in names)
+
+    def _gaps_stand(self, keys: Sequence[str]) -> bool:
+        """Whether the gaps of gears and shafts are those of the nominal design: all axes on the frame, or no gap."""
+        spec, layout = self.nominal.spec, self.nominal.layout
+        if not any(key.startswith(("frame.", "meshes.")) for key in keys) and all(
+            mesh.gears is not None and carrier_of(spec, mesh) == FRAME for mesh in spec.meshes.values()
+        ):
+            return True
+        return layout is None or not any(True for name in _OF_GAPS for _ in self.nominal.check(name))
 
     def _is_size(self, key: str) -> bool:
         """Whether an array form has it; a cam off its shaft makes no dwell."""
@@ -246,20 +315,27 @@ class PlanarSamples:
         return found
 
     @cached_property
-    def _grid(self) -> list[tuple[float, Reals, Reals, float, float]]:
-        """Places of the nominal design: input, unknowns, inverse of the matrix, its norm, and K."""
+    def _grid(self) -> list[_There]:
+        """Places of the nominal design."""
         course = self.nominal.course
-        q = course.grid
-        jets = course.jets(q, 1)
-        y, scaled = joined(jets.x[0], jets.t[0]), course.walked(q)
-        matrix = self.system.matrix(jets)
-        inverse = np.linalg.inv(matrix)
-        norms = 1.0 / np.linalg.svd(matrix, compute_uv=False)[:, -1]
-        found = []
-        for i in range(q.size):
-            here = Jets([part[i : i + 1] for part in jets.x], [part[i : i + 1] for part in jets.t])
-            found.append((float(scaled[i]), y[i], inverse[i], float(norms[i]), self.system.bounds(here)[0]))
-        return found
+        return [*_places(self.system, course.walked(course.grid), course.jets(course.grid, 1))]
+
+    @cached_property
+    def _at_start(self) -> _There:
+        """The start of the nominal design with its exact start values instead of meshes."""
+        start = self.nominal.course.at_start
+        x, t = start.closed[0][None], start.closed[1][None]
+        system = self._starting(self.nominal.structure)
+        return next(_places(system, np.zeros(1), Jets([x, np.zeros_like(x)], [t, np.zeros_like(t)])))
+
+    @cached_property
+    def _reaches(self) -> list[float]:
+        """By line, how far its point is at most from the origin of the line's body, over the grid [size]."""
+        nominal = self.nominal.structure
+        jets = self.nominal.course.jets(self.nominal.course.grid, 0)
+        apart = (jets.point(each.other, each.point / nominal.size, 0) - jets.x[0][:, each.body]
+                 for each in _lines(nominal))  # fmt: skip
+        return [float(np.abs(each).max()) for each in apart]
 
     # Samples
 
@@ -273,13 +349,36 @@ class PlanarSamples:
             keep(structure, cams=nominal.structure.cams)
             system = AsMade(structure, start, _errors_of_cams(nominal, columns)).running
         else:
-            rows = (*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts))
-            system = System(len(structure.bodies), pins_of(structure), rows)
+            rows = [*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts)]
+            if structure.meshes:
+                closed = self._closed_at_start(structure)
+                rows += [at_rest(mesh_row(mesh, structure.size), len(structure.bodies), closed)
+                         for mesh in structure.meshes.values()]  # fmt: skip
+            system = System(len(structure.bodies), pins_of(structure), tuple(rows))
         keep(system, blocks=self.system.blocks)
         return structure, system
 
+    def _starting(self, structure: Structure) -> System:
+        """The equations at input 0, with exact start values instead of meshes."""
+        start = self.nominal.course.at_start
+        rows = [*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts)]
+        system = System(len(structure.bodies), pins_of(structure), (*rows, *Start(structure).mesh_rows()))
+        keep(system, blocks=start.system.blocks)
+        return system
+
+    def _closed_at_start(self, structure: Structure) -> Jets:
+        """Samples at input 0, NaN where the theorem does not say that they stand beside the nominal design."""
+        system, there = self._starting(structure), self._at_start
+        uncertain = there.leaves(system, self.change(structure) + np.zeros(structure.count), structure.count)
+        y, _open = rested(system, 0.0, np.tile(there.y, (structure.count, 1)), ~uncertain)
+        return Jets.of(np.where(uncertain[:, None], math.nan, y))
+
     def change(self, structure: Structure) -> Reals:
-        """By how much the matrices of samples may differ from the nominal one at the same place; (N,) or one number."""
+        """By how much the matrices of samples may differ from the nominal one at the same place; (N,), NaN where
+        gears do not mesh."""
+        return self._change_of_points(structure) + np.sqrt(self._change_of_lines(structure))
+
+    def _change_of_points(self, structure: Structure) -> Reals:
         nominal = self.nominal.structure
         moved = [
             np.abs(mine - other) ** 2
@@ -288,6 +387,23 @@ class PlanarSamples:
         ]
         # each point is an element of as many joints as there are at most links
         return np.asarray(np.sqrt(sum(moved) * 2.0 * len(nominal.bodies)) / nominal.size * self.steepness)
+
+    def _change_of_lines(self, structure: Structure) -> Reals:
+        """Squares of what lines that lie otherwise, and meshes of other radii, change.
+
+        Notes
+            A row along or across a line has 1, 1, the distance of the point from the origin of its own body, and 1, 1,
+            that from the origin of the line's body, all turned with the line.
+        """
+        nominal, size, total = self.nominal.structure, self.nominal.structure.size, np.zeros(structure.count)
+        for line, given, most in zip(_lines(structure), _lines(nominal), self._reaches, strict=True):
+            arm, reach = np.abs(line.point) / size, most + np.abs(line.point - given.point) / size
+            total += (line.direction - given.direction) ** 2 * (2.0 + arm**2 + reach**2)
+        for mesh, own in zip(nominal.meshes.values(), structure.meshes.values(), strict=True):
+            # the element of a carrier is the sum of those of its gears
+            total += sum(3.0 * ((r - given) / size) ** 2 for r, given in zip(_radii(own), _radii(mesh), strict=True))
+            total = np.where(np.isnan(own.tangent), math.nan, total)
+        return total
 
     def run_beside(self, columns: Mapping[str, Any], stages: int) -> Mask:
         """Samples of which the theorem says so by way of designs between the nominal one and them.
@@ -298,14 +414,15 @@ class PlanarSamples:
         count = len(next(iter(columns.values())))
         between = [self.made(self._between(columns, k / stages)) for k in range(1, stages + 1)]
         sure, inputs = np.ones(count, dtype=bool), np.empty(count)
-        for q, first, _, _, bend in self._grid:
-            inputs[:], y = q, np.tile(first, (count, 1))
-            for structure, system in between:
+        changes = [self.change(structure) for structure, _ in between]
+        for there in self._grid:
+            inputs[:], y = there.q, np.tile(there.y, (count, 1))
+            for change, (_, system) in zip(changes, between, strict=True):
                 jets = Jets.of(y)
                 inverse = _inverse(system.matrix(jets))
                 step = -(inverse @ system.values(jets, 0, inputs)[..., None])[..., 0]
                 beta, eta = np.linalg.norm(inverse, axis=(1, 2)), np.linalg.norm(step, axis=1)
-                sure &= beta * bend * (1.0 + self.change(structure)) * eta < _CERTAIN
+                sure &= beta * there.bend * (1.0 + change) * eta < _CERTAIN
                 y = y + step
                 y = y - (inverse @ system.values(Jets.of(y), 0, inputs)[..., None])[..., 0]
             if not sure.any():
@@ -363,13 +480,13 @@ class PlanarSamples:
         largest, no = design.structure.largest, np.zeros(many.count, dtype=bool)
         limit = np.full(many.count, 1e-9 * largest)
         findings.append(Findings(CLOSURE.code, many.gap, limit, many.gap > limit, no, "mm"))
-        findings += [_alike(check, many.count) for check in self._of_cams]
+        findings += [_alike(check, many.count) for check in self._unchanged]
         return Evaluated(quantities, findings, np.zeros(many.count, dtype=np.intp), (), many.unsure)
 
     @cached_property
-    def _of_cams(self) -> list[Check]:
-        """Findings of the cams as cut, which no sample changes."""
-        names = ("shaft-clearance", "pressure-angle", "cam-undercut", "acceleration-step")
+    def _unchanged(self) -> list[Check]:
+        """Findings of gears, shafts and the cams as cut, which no sample changes."""
+        names = (*_OF_GAPS, "pressure-angle", "cam-undercut", "acceleration-step")
         return [check for name in names for check in self.nominal.check(name)]
 
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
@@ -541,6 +658,20 @@ def _inverse(matrices: Reals) -> Reals:
         return found
 
 
+def rested(system: System, q: Any, near: Reals, wanted: Mask) -> tuple[Reals, Mask]:
+    """Unknowns at inputs from approximate ones until the wanted ones rest, and which do not come to rest."""
+    y, inputs = near.copy(), np.broadcast_to(np.asarray(q, dtype=float), (len(near),))
+    far: Mask = np.ones(len(near), dtype=bool)
+    for _ in range(_CLOSING):
+        with np.errstate(all="ignore"):
+            step = system.step(Jets.of(y), inputs)
+        y = y + np.where(np.isfinite(step), step, 0.0)
+        far = ~(np.abs(step).max(axis=1) < 1e-9)
+        if not (np.abs(step).max(axis=1) > _REST * 100.0)[wanted].any():
+            break
+    return y, far
+
+
 class _Many:
     """Some samples side by side.
 
@@ -558,33 +689,21 @@ class _Many:
         for stages in _STAGES:
             if len(some := np.flatnonzero(self.unsure)):
                 self.unsure[some] = ~samples.run_beside({key: values[some] for key, values in columns.items()}, stages)
-        q, first = samples._grid[0][:2]
-        self.gap: Reals = self._gaps(self.closed(q, np.tile(first, (self.count, 1)))[0], np.full(self.count, q))
+        first = samples._grid[0]
+        y, _open = self.closed(first.q, np.tile(first.y, (self.count, 1)))
+        self.gap: Reals = self._gaps(y, np.full(self.count, first.q))
 
     def _uncertain(self) -> Mask:
         """Samples of which the theorem does not say that they run beside the nominal design."""
         change = self.samples.change(self.design.structure) + np.zeros(self.count)
         uncertain = np.zeros(self.count, dtype=bool)
-        for q, y, inverse, beta, k in self.samples._grid:
-            gaps = self.system.values(Jets.of(np.broadcast_to(y, (self.count, y.size))), 0, np.full(self.count, q))
-            eta, share = np.linalg.norm(gaps @ inverse.T, axis=1), beta * change
-            with np.errstate(divide="ignore"):
-                h = beta * k * (1.0 + change) * eta / (1.0 - share) ** 2
-            uncertain |= (share >= 0.5) | ~(h < _CERTAIN)
+        for there in self.samples._grid:
+            uncertain |= there.leaves(self.system, change, self.count)
         return uncertain
 
     def closed(self, q: Any, near: Reals) -> tuple[Reals, Mask]:
         """Unknowns at inputs from approximate ones, and which do not come to rest."""
-        y, inputs = near.copy(), np.broadcast_to(np.asarray(q, dtype=float), (self.count,))
-        far: Mask = np.ones(self.count, dtype=bool)
-        for _ in range(_CLOSING):
-            with np.errstate(all="ignore"):
-                step = self.system.step(Jets.of(y), inputs)
-            y = y + np.where(np.isfinite(step), step, 0.0)
-            far = ~(np.abs(step).max(axis=1) < 1e-9)
-            if not (np.abs(step).max(axis=1) > _REST * 100.0)[~self.unsure].any():
-                break
-        return y, far
+        return rested(self.system, q, near, ~self.unsure)
 
     def _gaps(self, y: Reals, q: Reals) -> Reals:
         """By how much the joints are open [mm]."""

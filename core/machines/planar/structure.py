@@ -88,6 +88,14 @@ class Driven(NamedTuple):
     ratio: float
 
 
+def _tangents(cosine: Any) -> Any:
+    """Tangents of angles, NaN where gears do not mesh; (N,)."""
+    import numpy as np
+
+    with np.errstate(invalid="ignore"):
+        return np.sqrt(1.0 - cosine * cosine) / cosine
+
+
 @dataclass(frozen=True)
 class Structure:
     """Bodies and joints of a file.
@@ -95,7 +103,7 @@ class Structure:
     Parameters
         spec : PlanarSpec
         plays : by pin - by how much the second body's hole is off the first one's, in the frame's directions [mm]
-        sizes : by key of the file - sizes in place of those of the file [mm], numbers or (N,) arrays of N mechanisms
+        sizes : by key of the file - numbers in place of those of the file [mm, deg], or (N,) arrays of N mechanisms
     """
 
     spec: PlanarSpec
@@ -113,6 +121,16 @@ class Structure:
                 continue
             for point, place in points.items():
                 points[point] = self._sized(f"{group}.{point}", place)
+        return found
+
+    @cached_property
+    def count(self) -> int:
+        """How many mechanisms."""
+        return max((getattr(each, "size", 1) for each in (*self.plays.values(), *self.sizes.values())), default=1)
+
+    def _angle(self, key: str, given: float) -> float:
+        """An angle of the file [rad]."""
+        found: float = self.sizes.get(key, given) * (math.pi / 180.0)
         return found
 
     def _sized(self, key: str, place: complex) -> complex:
@@ -173,8 +191,9 @@ class Structure:
             points = self.bodies[each.link]
             point = points[each.point] if each.point is not None else next(iter(points.values()))
             through = self._sized(f"slides.{name}.through", complex(*each.through))
-            line = Line(self.numbers[each.on], through, math.radians(each.direction), self.numbers[each.link], point)
-            found[name] = LineJoint(name, line, math.radians(each.angle))
+            direction = self._angle(f"slides.{name}.direction", each.direction)
+            line = Line(self.numbers[each.on], through, direction, self.numbers[each.link], point)
+            found[name] = LineJoint(name, line, self._angle(f"slides.{name}.angle", each.angle))
         return found
 
     @cached_property
@@ -187,7 +206,8 @@ class Structure:
                 self._sized(f"slots.{name}.through", complex(*each.through)),
                 self.bodies[other][each.point],
             )
-            line = Line(self.numbers[each.on], through, math.radians(each.direction), self.numbers[other], point)
+            direction = self._angle(f"slots.{name}.direction", each.direction)
+            line = Line(self.numbers[each.on], through, direction, self.numbers[other], point)
             found[name] = LineJoint(name, line)
         return found
 
@@ -212,11 +232,13 @@ class Structure:
         assert each.side is not None, "the same"
         assert each.direction is not None, "the same"
         pinion = self.numbers[each.pinion]
-        line = Line(
-            self.numbers[each.rack], 0j, math.radians(each.direction), pinion, self.bodies[each.pinion][each.at]
+        direction = self._angle(f"meshes.{name}.direction", each.direction)
+        line = Line(self.numbers[each.rack], 0j, direction, pinion, self.bodies[each.pinion][each.at])
+        tangent, module = (
+            math.tan(math.radians(each.pressure_angle)),
+            self.sizes.get(f"meshes.{name}.module", each.module),
         )
-        tangent = math.tan(math.radians(each.pressure_angle))
-        return RackJoint(name, line, 0.5 * each.module * each.teeth, each.side, each.module, tangent)
+        return RackJoint(name, line, 0.5 * module * each.teeth, each.side, module, tangent)
 
     def _gears(self, name: str, each: Teeth) -> GearJoint:
         assert each.gears is not None, "the spec has seen to it"
@@ -226,10 +248,11 @@ class Structure:
         assert carrier is not None, "the same"
         one, other = (self.bodies[carrier][point] for point in points)
         distance, (z1, z2) = abs(other - one), each.teeth
-        module = each.module or 2.0 * distance / abs(z1 + z2)
+        module = self.sizes.get(f"meshes.{name}.module", each.module or 2.0 * distance / abs(z1 + z2))
         nominal, alpha = 0.5 * module * abs(z1 + z2), math.radians(each.pressure_angle)
         cosine = nominal * math.cos(alpha) / distance  # of the working pressure angle: base circles stay
-        if cosine >= 1.0:
+        many = getattr(cosine, "ndim", 0) > 0
+        if not many and cosine >= 1.0:
             raise NoSolution(
                 (
                     f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {short(distance)} "
@@ -238,7 +261,7 @@ class Structure:
                 key=f"meshes.{name}.module",
                 fix=f"set module to {2.0 * distance / abs(z1 + z2):.6g} mm, or omit it",
             )
-        tangent = math.sqrt(1.0 - cosine * cosine) / cosine
+        tangent = _tangents(cosine) if many else math.sqrt(1.0 - cosine * cosine) / cosine
         radii = distance * z1 / (z1 + z2), distance * z2 / (z1 + z2)
         first, second = (self.numbers[gear] for gear in each.gears)
         internal = min(z1, z2) < 0

@@ -33,7 +33,7 @@ class Row(NamedTuple):
     across: bool = False
     factor: float = 1.0
     turns: Mapping[int, float] = {}
-    constant: float = 0.0
+    constant: Any = 0.0
     rate: float = 0.0
     lift: Lift | None = None
     contact: Contact | None = None
@@ -364,7 +364,8 @@ def joint_rows(structure: Structure, turns: Mapping[str, float]) -> list[Row]:
     for slide in structure.slides.values():
         line = scaled(slide.line, structure.size)
         found.append(Row(line, across=True))
-        lean = slide.line.direction + (slide.lean or 0.0) + turns.get(slide.name, 0.0)
+        lean = 0.0 if slide.lean is None else slide.lean
+        lean = slide.line.direction + lean + turns.get(slide.name, 0.0)
         found.append(Row(None, turns=_weights((line.other, 1.0), (line.body, -1.0)), constant=lean))
     found += (Row(scaled(slot.line, structure.size), across=True) for slot in structure.slots.values())
     return found
@@ -402,7 +403,7 @@ def _weights(*shares: tuple[int, float]) -> dict[int, float]:
     for body, share in shares:
         if body:
             found[body] = found.get(body, 0.0) + share
-    return {body: share for body, share in found.items() if share}
+    return {body: share for body, share in found.items() if np.any(share)}
 
 
 def pins_of(structure: Structure) -> tuple[tuple[int, int, complex, complex, complex], ...]:
@@ -412,6 +413,12 @@ def pins_of(structure: Structure) -> tuple[tuple[int, int, complex, complex, com
         (each.first, each.second, each.at_first / size, each.at_second / size, each.play / size)
         for each in structure.pins
     )
+
+
+def at_rest(row: Row, bodies: int, jets: Jets) -> Row:
+    """A row whose constant is such that it holds at places; of N places N constants."""
+    value = System(bodies, (), (row,)).values(jets, 0, np.zeros(len(jets.t[0])))[:, 0]
+    return row._replace(constant=float(value[0]) if value.size == 1 else value)
 
 
 def drive_rows(structure: Structure, starts: Mapping[str, float]) -> list[Row]:
