@@ -513,9 +513,12 @@ class _Wording:
         expected = re.findall(r"'([^']*)'", finding.context.get("expected_tags", ""))
         path = (*finding.path, tag)
         given = str(finding.context.get("tag", ""))
-        near = get_close_matches(given[:100].strip().lower(), expected, n=1)
+        plain = given[:100].strip().lower()
+        near = [word for word in expected if plain and word.startswith(plain)] or get_close_matches(
+            plain, expected, n=1
+        )
         message = f"{format_path(path)} must be {' or '.join(expected)}, not {shown(given)}"
-        return self.loaded.report("GL108", message, path, help=f"did you mean {near[0]}?" if near else "")
+        return self.loaded.report("GL108", message, path, help=f"did you mean {' or '.join(near)}?" if near else "")
 
     def _no_tag(self, finding: _Finding) -> Diagnostic:
         path = (*finding.path, finding.context.get("discriminator", "").strip("'"))

@@ -79,12 +79,22 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
         entry = bool(path[:-1]) and bool(shapes_at(model, path, data)[0])
         return "; ".join(filter(None, [meaning_at(model, path[:-1], data), _its_keys(model, path)])) if entry else ""
     unit = unit_at(model, path, data)
-    number = ", ".join(filter(None, ["" if unit == "1" else unit, " ".join(filter(None, _limits(model, path, data)))]))
+    limits = " ".join(filter(None, _limits(model, path, data)))
+    number = ", ".join(filter(None, ["" if unit == "1" else unit, limits, _choices(model, path, data)]))
     words = (field.description or "").removesuffix(f" [{unit}]")
     words = f"{words} ({number})" if words and number else words or number
     text = "; ".join(filter(None, [words, _its_keys(model, path)]))
     begins = text.lower().startswith(name.replace("_", " "))  # "module: module; of helical gears ..."
     return text if begins or not text else f"{name}: {text}"
+
+
+def _choices(model: type[BaseModel], path: KeyPath, data: Any) -> str:
+    """The words of which a value is one; nothing where it may be another, or where they are many."""
+    shapes = [shape for shape, _ in shapes_at(model, path, data)[0]]
+    words = list(dict.fromkeys(word for shape in shapes for word in get_args(shape)))
+    if any(get_origin(shape) is not Literal for shape in shapes) or not 1 < len(words) <= _MOST_KEYS:
+        return ""
+    return f"{', '.join(map(str, words[:-1]))} or {words[-1]}"
 
 
 def _its_keys(model: type[BaseModel], path: KeyPath) -> str:
@@ -140,7 +150,8 @@ def _of_follower(path: KeyPath, data: Any, sliding: str, turning: str) -> str:
             found = node["follower"]
         node = _child(node, step)
     if isinstance(found, dict):
-        return turning if str(found.get("type")).startswith("oscillating") else sliding
+        turns = str(found["type"]).startswith("oscillating") if "type" in found else "arm" in found
+        return turning if turns else sliding
     return sliding if found is None else ""
 
 
