@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
@@ -25,6 +25,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.linear_program import Solution, proved_bound, solution
 
 _TWO_PI = 2.0 * math.pi
@@ -216,7 +217,7 @@ class Residual:
     def __init__(self, basis: Basis, band: tuple[float, float], damping: float) -> None:
         self.damping = damping
         self.damped = math.sqrt(1.0 - damping * damping)
-        nodes, weights = gauss_legendre(40 + basis.wish.degree + math.ceil(math.pi * band[1]))
+        nodes, weights = _nodes(40 + basis.wish.degree + math.ceil(math.pi * band[1]))
         self._left = 1.0 - nodes
         self._weighted = weights[:, None] * basis.rows(2, nodes)
         self.even, self.real = basis.wish.to_speed, basis.wish.symmetric and damping == 0.0
@@ -237,7 +238,8 @@ class Residual:
         return _TWO_PI**2 * rate**2
 
 
-class Course(NamedTuple):
+@dataclass(frozen=True)
+class Course:
     """Something linear in the coefficients whose magnitude has a limit, or is minimized.
 
     Fields
@@ -254,6 +256,12 @@ class Course(NamedTuple):
     def grid(self, count: int) -> Reals:
         """Places, denser towards the ends."""
         return 0.5 * (self.low + self.high - (self.high - self.low) * np.cos(np.linspace(0.0, math.pi, count)))
+
+    @cached_property
+    def fine(self) -> tuple[Reals, Any]:
+        """The places between which peaks are sought, and their rows."""
+        places = self.grid(_GRID)
+        return places, self.rows(places)
 
 
 class Program(NamedTuple):
@@ -425,9 +433,9 @@ class Programme:
         return float(min(found))
 
 
-def gauss_legendre(count: int) -> tuple[Reals, Reals]:
-    """Nodes and weights on [0, 1]."""
-    x, w = np.polynomial.legendre.leggauss(count)
+def _nodes(count: int) -> tuple[Reals, Reals]:
+    """Nodes and weights of Gauss and Legendre on [0, 1]."""
+    x, w = gauss_legendre(count)
     return 0.5 * (x + 1.0), 0.5 * w
 
 
@@ -441,8 +449,8 @@ def begun(course: Course, places: int = _FIRST_PLACES) -> Reals:
 
 def _passed(course: Course, series: Reals, limit: float) -> Reals | None:
     """Rows of the places between which a course has its peaks above a limit; None where it has none."""
-    places = course.grid(_GRID)
-    values = np.abs(course.rows(places) @ series)
+    places, fine = course.fine
+    values = np.abs(fine @ series)
     inner = values[1:-1]
     peaks = np.flatnonzero((inner >= values[:-2]) & (inner >= values[2:]) & (inner > limit)) + 1
     found = [_top(places[k - 1 : k + 2], values[k - 1 : k + 2]) for k in peaks]
@@ -477,7 +485,7 @@ def greatest_residual(coefficients: Sequence[float] | Reals, band: tuple[float, 
     c = np.asarray(coefficients, dtype=np.float64)
     basis = Basis(Wish("residual", c.size - 1, symmetric=False))
     course = Residual(basis, band, damping)
-    nodes, weights = gauss_legendre(40 + c.size + math.ceil(math.pi * band[1]))
+    nodes, weights = _nodes(40 + c.size + math.ceil(math.pi * band[1]))
     left, values = 1.0 - nodes, weights * bernstein.evaluate(c, nodes)
 
     def numerator(periods: Reals) -> Reals:
@@ -571,6 +579,7 @@ class _Search(Programme):
         size = float(np.max(np.abs(self.best)))
         reach = 0.3 * size
         for _ in range(_STEPS):
+            self.courses[0] = replace(self.courses[0])  # the linear part about another law
             self.known[0] = begun(self.courses[0], _PLACES)
             self.around = self.best - reach, self.best + reach
             found = super().solved(slack)
