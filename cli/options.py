@@ -38,15 +38,22 @@ def plain_file(text: str) -> Path:
     return _no_stream(file(text), "plain file")
 
 
+_WRITTEN = (".html", ".pdf", ".png", ".svg", ".gif", ".mp4", ".dxf", ".csv", ".step", ".json", ".xml")
+"""Endings of files that commands write: what a folder is hardly called."""
+
+
 def folder(text: str) -> Path:
     """The path of a folder to write to.
 
     Raises
-        ValueError - for an empty one, and for `-`
+        ValueError - for an empty one, for `-`, and for one that is called as a file
     """
     if not text:
         raise ValueError("the name is empty\ngive a folder, . for the current one")
-    return _no_stream(file(text), "folder")
+    path = file(text)
+    if path.suffix.lower() in _WRITTEN and not path.is_dir():
+        raise ValueError(f"{path} is the name of a file, a folder is required\ngive {path.parent}")
+    return _no_stream(path, "folder")
 
 
 FULL = "full"

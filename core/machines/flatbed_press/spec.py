@@ -145,9 +145,9 @@ class PressCam(Spec):
     @model_validator(mode="after")
     def _one_transition(self) -> PressCam:
         if self.transition_end is None and self.transition_angle is None:
-            raise PydanticCustomError(
-                "GL106", "either transition_end or transition_angle is needed", {"key": "transition_end"}
-            )
+            message = "either transition_end or transition_angle is needed"
+            message += "\ngive transition_angle, the cam angle from the end of the zone to the maximum lift"
+            raise PydanticCustomError("GL106", "{message}", {"key": "transition_end", "message": message})
         if self.transition_end is not None and self.transition_angle is not None:
             message = "transition_end and transition_angle exclude each other\nomit transition_end or transition_angle"
             raise PydanticCustomError("GL111", message, {"key": "transition_angle"})

@@ -75,9 +75,8 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     def _placed(self) -> GearPairSpec:
         require_teeth(self.teeth)
         if self.center_distance is None and self.profile_shift is None:
-            raise PydanticCustomError(
-                "GL106", "either center_distance or profile_shift is needed", {"key": "center_distance"}
-            )
+            message = "either center_distance or profile_shift is needed\ngive profile_shift: [0, 0] for standard gears"
+            raise PydanticCustomError("GL106", "{message}", {"key": "center_distance", "message": message})
         exclude_each_other(self, "tip_shortening", "tip_diameter")
         for place, spanned in enumerate(self.span_teeth or ()):
             z = self.teeth[place]
