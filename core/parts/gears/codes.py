@@ -221,7 +221,7 @@ SCUFFING = Rule(
     "The oil film breaks down, flanks weld and tear.",
     "Take an oil of a higher load stage or viscosity, a tip relief, smoother flanks, or a lower oil temperature.",
     "S_intS = theta_intS/theta_int >= limits.safety_scuffing (1.8)",
-    "ISO/TR 13989-2, ISO/TS 6336-21; within 0.5 % of a printed report",
+    "ISO/TR 13989-2, ISO/TS 6336-21",
     ("scuffing",),
     ("rating.lubricant", "rating.tip_relief", "rating.roughness", *_within("rating")),
 )

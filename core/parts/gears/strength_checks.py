@@ -38,8 +38,6 @@ def rests_on(quantity: str, data: GearData) -> str:
         return shaped_root(data)
     if quantity in ("generated_root_factor", "generated_root_stress"):
         return "boundary integral on one tooth and its rim, within 4 %"
-    if quantity in ("integral_temperature", "safety_scuffing"):
-        return "within 0.5 % of the reference" if data.rated is not None else ""
     return _bending_inputs(data) if quantity in ("root_stress", "safety_bending") else ""
 
 

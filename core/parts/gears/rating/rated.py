@@ -967,8 +967,8 @@ class Scuffing:
         The pinion, the gear with fewer teeth, drives. Of the tip relief no more counts than the deflection C_eff.
 
     Source
-        ISO/TR 13989-2, ISO/TS 6336-21: nine intermediate values of a KISSsoft report are met, the integral temperature
-        to 0.3 %; where a part of the path is longer than a base pitch, from memory
+        ISO/TR 13989-2, ISO/TS 6336-21: all values of a KISSsoft report are met to the digits that it prints; X_Q where
+        it is not 1, and X_eps where a part of the path is longer than a base pitch, from memory
     """
 
     rated: Rated
@@ -1017,11 +1017,10 @@ class Scuffing:
             return 1.0
         return 1.3 if eps >= 3.5 else 1.0 + 0.2 * math.sqrt((eps - 2.0) * (5.0 - eps))
 
-    @cached_property
+    @property
     def speed(self) -> float:
-        """v on the working circle [m/s]."""
-        pair = self._path.pair
-        return self.rated.at_load.pitch_line_speed * pair.working_radius[0] / pair.reference_radius[0]
+        """v on the reference circle [m/s]."""
+        return self.rated.at_load.pitch_line_speed
 
     @cached_property
     def curvature(self) -> float:
@@ -1035,7 +1034,8 @@ class Scuffing:
         """mu, the mean coefficient of friction."""
         ra = 0.5 * (self._conditions.ra[0] + self._conditions.ra[1])
         rough = 2.2 * (ra / self.curvature) ** 0.25
-        rolling = 2.0 * self.speed * math.sin(self._path.pair.working_pressure_angle)
+        pair = self._path.pair
+        rolling = 2.0 * self.speed * math.tan(pair.working_pressure_angle) * math.cos(pair.transverse_pressure_angle)
         pressed = (self.line_load * self.helical_factor / (rolling * self.curvature)) ** 0.2
         return float(0.045 * pressed * self.viscosity**-0.05 * rough)
 
@@ -1071,6 +1071,20 @@ class Scuffing:
         return ends[0] / pitch, ends[1] / pitch
 
     @cached_property
+    def angle_factor(self) -> float:
+        """X_alphabeta."""
+        pair = self._path.pair
+        working, transverse = pair.working_pressure_angle, pair.transverse_pressure_angle
+        above = math.sin(working) * math.cos(pair.pressure_angle) * math.cos(pair.helix_angle)
+        return float(1.22 * above**0.25 / math.sqrt(math.cos(working) * math.cos(transverse)))
+
+    @cached_property
+    def approach_factor(self) -> float:
+        """X_Q of the approach, the part of the path before the pitch point, over the recess."""
+        recess, approach = self.addendum_contact_ratios
+        return min(1.0, max(0.6, 1.4 - 4.0 / 15.0 * approach / recess)) if recess > 0.0 else 0.6
+
+    @cached_property
     def contact_ratio_factor(self) -> float:
         """X_eps."""
         return contact_ratio_factor(*self.addendum_contact_ratios)
@@ -1092,10 +1106,10 @@ class Scuffing:
     @cached_property
     def flash_temperature(self) -> float:
         """theta_flaint, the mean flash temperature [K]."""
-        hot = self.friction * self.thermal_flash_factor * self.geometry_factor
+        hot = self.friction * self.thermal_flash_factor * self.geometry_factor * self.angle_factor
         hot *= (self.helical_factor * self.line_load) ** 0.75 * math.sqrt(self.speed)
         spread = abs(self._path.pair.center_distance) ** 0.25
-        return float(hot / spread * self.contact_ratio_factor / self.relief_factor)
+        return float(hot / spread * self.contact_ratio_factor / (self.approach_factor * self.relief_factor))
 
     @cached_property
     def mass_temperature(self) -> float:

@@ -366,9 +366,12 @@ def _scuffing(rated: Rated) -> Iterator[Line]:
     yield Line("mu", "mean coefficient of friction", (found.friction, None), "1", rule, inputs)
     yield Line("X_M", "thermal flash factor", (found.thermal_flash_factor, None), "K N^-3/4 s^1/2 m^-1/2 mm", rule)
     yield Line("X_BE", "geometry factor", (found.geometry_factor, None), "1", rule, _said(rho_E=found.tip_curvatures))
+    yield Line("X_alphabeta", "angle factor", (found.angle_factor, None), "1", rule)
     one, other = found.addendum_contact_ratios
     short = max(one, other) < 1.0
     inputs = _said(eps=(one, other))
+    met = found.approach_factor == 1.0
+    yield Line("X_Q", "approach factor", (found.approach_factor, None), "1", rule, inputs, confirmed=met)
     yield Line(
         "X_eps",
         "contact ratio factor of scuffing",
@@ -393,7 +396,7 @@ def _scuffing(rated: Rated) -> Iterator[Line]:
         inputs,
         confirmed=printed,
     )
-    yield Line("S_intS", "safety against scuffing", (found.safety, None), "1", rule, "within 0.5 % of the reference")
+    yield Line("S_intS", "safety against scuffing", (found.safety, None), "1", rule)
 
 
 def _relief(rated: Rated, found: Scuffing) -> Line:

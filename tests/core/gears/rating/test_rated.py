@@ -276,6 +276,19 @@ def test_the_contact_ratio_factor_of_scuffing_joins(one: float, other: float) ->
     assert contact_ratio_factor(one, 1.0 - 1e-9) == pytest.approx(contact_ratio_factor(one, 1.0), rel=1e-6)
 
 
+def test_the_approach_of_scuffing_counts_where_it_is_long() -> None:
+    """X_Q over eps_2/eps_1: 1 to 1.5, 0.6 from 3 on, straight between; the shift moves the path."""
+    oil = {"lubricant": {"vg": 220, "viscosity_100": 19, "temperature": 80, "scuffing_stage": 12}}
+    seen = set()
+    for shift in (0.5, 0.1, -0.2, -0.3, -0.5):
+        found = rated(rating=oil, profile_shift=[shift, 0.35 - shift]).data.rated.scuffing
+        recess, approach = found.addendum_contact_ratios
+        ratio = approach / recess
+        assert found.approach_factor == pytest.approx(np.interp(ratio, [1.5, 3.0], [1.0, 0.6]), rel=1e-12)
+        seen.add("long" if ratio >= 3.0 else "short" if ratio <= 1.5 else "between")
+    assert seen == {"long", "short", "between"}
+
+
 def test_the_oil_has_the_viscosities_it_was_given() -> None:
     oil = {"vg": 220, "viscosity_100": 19, "scuffing_stage": 12}
     for temperature, kinematic in ((40.0, 220.0), (100.0, 19.0)):
