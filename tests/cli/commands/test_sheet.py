@@ -294,7 +294,7 @@ def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) 
     """Read back in mm of paper: all within the frame, the outline as large as the cam times its scale."""
     made = design(name, **keys)
     (cam, *_) = cam_sheets.discs(made)
-    low, high = true_size._reach(cam)
+    low, high = true_size._reach(cam, None)
     page, scale = paper.fitted(high - low)
     figure = true_size.workshop_drawing(made, 0)
     assert figure.get_size_inches() * 25.4 == pytest.approx((page.width, page.height), rel=1e-12, abs=0.0)
