@@ -1,6 +1,7 @@
 """Property tests try the same examples in every run, whatever modules the process has loaded before."""
 
 import importlib.util
+import inspect
 import sys
 
 import pytest
@@ -45,7 +46,8 @@ def test_examples_do_not_depend_on_loaded_modules(tmp_path, monkeypatch):
 def test_they_would_if_hypothesis_were_left_to_itself(tmp_path, monkeypatch):
     """So the test above can fail: this is what conftest.py switches off."""
     before = examples()
-    monkeypatch.setattr(providers, "_get_local_constants", providers._get_local_constants.__wrapped__)
+    # a process that loads conftest.py twice wraps it twice
+    monkeypatch.setattr(providers, "_get_local_constants", inspect.unwrap(providers._get_local_constants))
     monkeypatch.setattr(providers, "CONSTANTS_CACHE", LRUCache(1024))
     # as in a process in which nothing has been looked for: modules are known by their address, which may come again
     monkeypatch.setattr(providers, "_seen_modules", set())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +28,8 @@ from gearlink.core.parts.cams.undercut import Undercut, undercut
 
 _TURN = 2.0 * math.pi
 SAMPLES = 512
+_BESIDE = 1e-7
+"""Of a joint [rad]: there a profile goes on by more than rounding, and a corner that no roller feels goes unseen."""
 _WITH_PLACE = ("max_pressure_angle", "most_convex")
 FOUND_TOGETHER = (*_WITH_PLACE, "max_radius", "min_radius", "least_support")
 
@@ -191,8 +194,15 @@ class DiscCam:
 
     @cached_property
     def star_shaped(self) -> bool:
-        """Whether the polar angle of a profile without a cusp runs one way."""
-        return self.least_support > self.roller_radius
+        """Whether the polar angle of a profile without a cusp runs one way, at each corner of the pitch curve too."""
+        found: Any = self.least_support > self.roller_radius
+        if not np.any(found) or not self.bounds:
+            return found  # type: ignore[no-any-return]
+        sides = np.concatenate([np.atleast_1d(joint) + way for joint in self.bounds for way in (-_BESIDE, _BESIDE)], -1)
+        profile = self.points(np.mod(sides, _TURN))[1]
+        onwards = -self.sense * np.imag(np.conj(profile[..., ::2]) * profile[..., 1::2])
+        runs = np.all(onwards > 0.0, axis=-1)
+        return found & runs.reshape(np.shape(found))  # type: ignore[no-any-return]
 
     def table(self, name: str, samples: int | None = None) -> Table:
         """The cam as a table over the cam angle, as many rows as asked for."""

@@ -124,6 +124,31 @@ def test_star_shaped_profile_needs_no_search_and_agrees_with_it():
     assert undercut(cam.points, cam.roller_radius).depth <= 1e-11
 
 
+def cornered(size: float, depth: float, roller: float) -> DiscCam:
+    """rho = R + D |sin(t/2)|, whose slope steps by D at t = 0: a ridge for D < 0, a valley for D > 0."""
+
+    def path(t, order):
+        half = 0.5 * np.mod(t, 2.0 * np.pi)
+        second = -0.25 * depth * np.sin(half)
+        return translating(size + depth * np.sin(half), 0.5 * depth * np.cos(half), second if order > 1 else 0.0)
+
+    return DiscCam("cornered", path, 1, roller, (0.0,))
+
+
+@pytest.mark.parametrize("depth", [-20.0, -0.5, 0.5, 20.0])
+def test_a_roller_cuts_a_ridge_of_its_pitch_curve_and_no_valley(depth):
+    """Against all distances of fine grids beside the corner, which miss the depth by less than their step's square."""
+    cam = cornered(100.0, depth, 20.0)
+    assert cam.least_support > cam.roller_radius
+    assert cam.roller_radius < cam.min_curvature_radius.value
+    assert cam.star_shaped == (depth > 0.0)
+    angles = np.concatenate([2.0 * math.pi - np.geomspace(1e-9, 0.3, 700)[::-1], np.geomspace(1e-9, 0.3, 700)])
+    pitch, profile = cam.points(angles)
+    cut = cam.roller_radius - float(np.abs(profile[:, None] - pitch).min())
+    assert cam.undercut.depth == pytest.approx(cut if depth < 0.0 else 0.0, abs=1e-4 * abs(depth))
+    assert (cut > 1e-5) == (depth < 0.0)
+
+
 @pytest.mark.parametrize(
     ("share", "status"), [(0.5, "pass"), (0.799, "pass"), (0.801, "warn"), (1.0, "fail"), (2, "fail")]
 )
