@@ -11,7 +11,7 @@ from gearlink.core.base.design import Design, Found, NamesOfFile, Outline, Unkno
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Table
-from gearlink.core.base.results import cached_property, keep
+from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
@@ -19,7 +19,7 @@ from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 if TYPE_CHECKING:
     from gearlink.core.base.remedies.ways import Way
     from gearlink.core.machines.machine.relations import Moment, Relation
-    from gearlink.core.machines.machine.series import Members, OverMachine
+    from gearlink.core.machines.machine.series import Known, Members, OverMachine
     from gearlink.core.machines.machine.shaft import Chain
     from gearlink.core.machines.machine.spec import MachineSpec
     from gearlink.core.machines.machine.timing import Solution, Tie, Timing
@@ -45,13 +45,14 @@ class OfMembers(Design):
     quantity_names = NamesOfFile()
     advises = False
     command = "analyze"
+    before: Mapping[str, Known] = {}  # of the members of a machine that differs in some keys
 
     @cached_property
     def members(self) -> Members:
         """The members, each behind what drives it."""
         from gearlink.core.machines.machine.series import Members
 
-        return Members(self.spec)
+        return Members(self.spec, self.before, self.warnings)
 
     def member(self, name: str) -> Design | None:
         """The design of a member that answers the command; None where it does not take it."""
@@ -192,11 +193,16 @@ class Machine(OfMembers):
 
     def varied(self, spec: Any) -> Machine:
         """The machine of another file, with the members that are as they were."""
-        from gearlink.core.machines.machine.series import Members
-
         made = type(self)(spec)
-        keep(made, members=Members(spec, self.members.known))
+        made.before = self.members.known
         return made
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Machine], names: Sequence[str]) -> None:
+        """Members that differ, by their classes."""
+        from gearlink.core.machines.machine.series import find_together
+
+        find_together([design.members for design in designs], names)
 
     def found_of(self, member: str, design: Design, check: str) -> list[Check]:
         """The findings of a check of a member, known while its own file stays as it is."""

@@ -18,7 +18,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.design import Machine, OfMembers
 from gearlink.core.machines.machine.series import MOST_TURNS, OnShaft
-from gearlink.core.machines.machine.speeds import own_speeds
+from gearlink.core.machines.machine.speeds import at_speed, own_speeds
 from gearlink.core.mechanism.dynamics import Reduced, System
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.motion import TURN, Motion
@@ -269,7 +269,7 @@ class MachineLoads(OfMembers, LoadsDesign):
         """The spec of a member; one behind another is made at the machine's speed, and moved by its driver."""
         member = self.spec.members[name]
         if member.input is None:
-            return self.members.own_spec(name)
+            return at_speed(self.spec, name)
         given = own_speeds(member.spec)
         return member.changed([(each.key, abs(self.given_speed) / each.per) for each in given[-1:]])
 

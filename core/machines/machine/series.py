@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -15,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.errors import NoSolution, in_section, named
+from gearlink.core.base.errors import GearlinkError, NoSolution, in_section, named
+from gearlink.core.base.many_designs import in_groups
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.motion import TURN, Course, Motion
 from gearlink.core.numerics.arrays import Reals, distinct
@@ -361,15 +363,17 @@ class Known:
     """What is known of a member by its own file alone, so that machines that differ elsewhere share it.
 
     Fields
-        spec, design : of the member, at the machine's speed
+        given : spec of the member, and the speed that the machine gives it
+        design : of the member, at that speed
         findings : by check
-        runs : by output, ratio and dial
+        runs, offsets : by output, and by moment, each with ratio and dial
     """
 
-    spec: Any
+    given: tuple[Any, float | None]
     design: Design
     findings: dict[str, Any] = field(default_factory=dict)
     runs: dict[Any, Any] = field(default_factory=dict)
+    offsets: dict[Any, Any] = field(default_factory=dict)
 
 
 class Members:
@@ -377,13 +381,14 @@ class Members:
 
     Parameters
         spec : MachineSpec
-        known : by member - of a machine that differs in some keys
+        before : by member - what is known of a machine that differs in some keys, or will be when it is computed
+        warnings : bool - whether findings of members that can only warn are wanted
     """
 
-    def __init__(self, spec: MachineSpec, known: Mapping[str, Known] | None = None) -> None:
+    def __init__(self, spec: MachineSpec, before: Mapping[str, Known], warnings: bool = True) -> None:
         self.spec = spec
         self._made: dict[str, OnShaft] = {}
-        self._before = known or {}
+        self._before, self._warnings = before, warnings
         self.known: dict[str, Known] = {}
 
     def __getitem__(self, name: str) -> OnShaft:
@@ -397,10 +402,7 @@ class Members:
 
     def _make(self, name: str, member: Member) -> OnShaft:
         with in_section(f"members.{name}.design"):
-            own, before = self.own_spec(name), self._before.get(name)
-            alike = before is not None and before.spec == own
-            self.known[name] = before if alike else Known(own, member.kind.design("analyze", own))  # type: ignore[assignment]
-            design = self.known[name].design
+            design = self.own(name).design
             if not design.moving.outputs:
                 raise NoSolution("this design moves nothing", key="kind")
         if member.input is None:
@@ -410,11 +412,20 @@ class Members:
             driving = self[of].course_of(output)
         return OnShaft(name, design, member.ratio, float(member.phase), self[of], driving)
 
-    def own_spec(self, name: str) -> Any:
-        """The spec of a member at the machine's speed."""
-        from gearlink.core.machines.machine.speeds import at_speed
+    def own(self, name: str) -> Known:
+        """A member by itself."""
+        from gearlink.core.machines.machine.speeds import at_speed, wanted_speed
 
-        return at_speed(self.spec, name)
+        if name not in self.known:
+            member, before = self.spec.members[name], self._before.get(name)
+            given = member.spec, wanted_speed(self.spec, name)
+            if before is None or before.given != given:
+                design = member.kind.design("analyze", at_speed(self.spec, name))
+                if not self._warnings:
+                    design.advises = design.warnings = False
+                before = Known(given, design)
+            self.known[name] = before
+        return self.known[name]
 
     @cached_property
     def turns(self) -> int:
@@ -430,3 +441,20 @@ class Members:
                 message = f"the machine repeats only after {found} turns, more than {MOST_TURNS}"
                 raise NoSolution(message, key=f"members.{name}.ratio", fix="take simpler ratios")
         return found
+
+
+def find_together(machines: Sequence[Members], names: Sequence[str]) -> None:
+    """Let members of machines, each once, find together what their classes do.
+
+    Parameters
+        names : of quantities and checks that will be asked for
+    """
+    for name in machines[0]:
+        designs = {}
+        for members in machines:
+            with suppress(GearlinkError):  # it is refused where it is asked for
+                design = members.own(name).design
+                designs[id(design)] = design
+        asked = [each.removeprefix(f"{name}.") for each in names]
+        for group in in_groups(list(designs.values()), type):
+            type(group[0]).find_together(group, asked)

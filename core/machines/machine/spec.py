@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema, model_validator
@@ -52,6 +52,14 @@ def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
     return code, key.removeprefix("."), message
 
 
+@lru_cache(maxsize=64)
+def _spec_of(kind: str, text: str) -> Any:
+    """The spec of a member, one and the same for machines that differ elsewhere."""
+    from gearlink.core.base.kinds import KINDS
+
+    return KINDS[kind].spec_model().model_validate_json(text)
+
+
 def _made(design: Any) -> Any:
     """The spec of a member from the data of its file; one that is made already as it is."""
     from gearlink.core.base.kinds import KINDS
@@ -65,7 +73,7 @@ def _made(design: Any) -> Any:
     if not isinstance(name, str) or name not in moving:
         raise _refuse("GL109", "kind", f"no kind of member {named(str(name))}: the kinds are {', '.join(moving)}")
     try:
-        return moving[name].spec_model().model_validate_json(json.dumps(design))
+        return _spec_of(name, json.dumps(design))
     except ValidationError as error:
         code, key, message = _first_wrong(error)
         raise _refuse(code, key, message) from None

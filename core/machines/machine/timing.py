@@ -95,9 +95,14 @@ def _between(rate: Callable[[Reals], Reals], ends: tuple[float, float], grid: Re
     cuts, senses = [ends[0]], [int(signs[moving[0]])]
     for i, j in pairwise(moving.tolist()):
         if signs[i] != signs[j]:
-            cuts.append(bracketed_root(lambda x: float(rate(np.array([x]))[0]), float(grid[i]), float(grid[j])))
+            cuts.append(_root(rate, np.array([grid[i], grid[j]])))
             senses.append(int(signs[j]))
     return [Stretch(a, b, sense) for (a, b), sense in zip(pairwise([*cuts, ends[1]]), senses, strict=True)]
+
+
+def _root(f: Callable[[Reals], Reals], ends: Reals) -> float:
+    """Where a function changes its sign between two places, or at one."""
+    return bracketed_root(lambda x: float(f(np.array([x]))[0]), float(ends[0]), float(ends[-1]))
 
 
 def _merged(found: Sequence[Stretch], start: float, end: float) -> list[Stretch]:
@@ -147,7 +152,7 @@ class Timing:
     def __init__(self, spec: MachineSpec, members: Members) -> None:
         self.spec, self.members = spec, members
         self._runs: dict[Any, list[Run]] = {}
-        self._offsets: dict[Moment, tuple[str, float]] = {}
+        self._offsets: dict[Any, float] = {}
 
     @cached_property
     def dial(self) -> float:
@@ -198,11 +203,10 @@ class Timing:
             after = own if ratio > 0.0 else _remainder(-b, width)
             first.append((own, after / abs(ratio), (b - a) / abs(ratio), sense if ratio > 0.0 else -sense))
         times, turn = round(self.dial * abs(ratio) / width), width / abs(ratio)
-        return [
-            self._run(member, course, start + k * turn, duration, sense)
-            for k in range(times)
-            for _, start, duration, sense in sorted(first)
+        ways = [
+            (start + k * turn, duration, sense) for k in range(times) for _, start, duration, sense in sorted(first)
         ]
+        return _runs(member, course, ways)
 
     def _of_series(self, member: OnShaft, course: Course) -> list[Run]:
         """Of a member behind another: over the machine angle, counted from machine angle 0."""
@@ -211,15 +215,8 @@ class Timing:
             each + k * TURN * member.turns for k in range(self.members.turns // member.turns) for each in member.joints
         ]
         found = stretches(lambda angle: member.rates(angle, 1, course=course)[1], 0.0, end, joints)
-        runs = [self._run(member, course, math.degrees(a), math.degrees(b - a), sense) for a, b, sense in found]
+        runs = _runs(member, course, [(math.degrees(a), math.degrees(b - a), sense) for a, b, sense in found])
         return sorted(runs, key=lambda run: self.on_dial(run.start + math.degrees(shift)))
-
-    def _run(self, member: OnShaft, course: Course, start: float, duration: float, sense: int) -> Run:
-        at = np.radians(np.array([start, start + duration]))
-        of, to = member.rates(at, 0, course=course)[0].tolist()
-        if course.unit == "rad":
-            of, to = math.degrees(of), math.degrees(to)
-        return Run(_WORDS[sense], start, duration, of, to)
 
     def phase_of_root(self, name: str) -> float | None:
         """The phase of the member on the main shaft that drives a member [deg]; None where it is free."""
@@ -249,37 +246,41 @@ class Timing:
         Raises
             NoSolution - for an event that the member does not have
         """
-        if moment not in self._offsets:
-            self._offsets[moment] = self._offset(moment)
-        return self._offsets[moment]
-
-    def _offset(self, moment: Moment) -> tuple[str, float]:
         if isinstance(moment, float):
             return "", moment
-        if not moment.of:
-            event = self.spec.events[moment.what]
+        event = None if moment.of else self.spec.events[moment.what]
+        member = self.members[moment.member if event is None else event.of.partition(".")[0]]
+        known, key = self._offsets, (moment, event, member.ratio, self.dial)
+        if member.driver is None:
+            known = self.members.known[member.name].offsets
+        if key not in known:
+            known[key] = self._offset(moment, event)
+        return self.spec.root(member.name), known[key]
+
+    def _offset(self, moment: Named, event: Event | None) -> float:
+        """From the phase of the member on the main shaft [deg]."""
+        if event is not None:
             with at_key(f"events.{moment.what}"):
-                return self.spec.root(event.of.partition(".")[0]), self._passing(moment.what, event)
-        root = self.spec.root(moment.member)
+                return self._passing(moment.what, event)
         if moment.what in EXTREMES:
-            return root, self._extreme(moment)
+            return self._extreme(moment)
         run = self.run(moment)
-        return root, run.start + (run.duration if moment.end == "end" else 0.0)
+        return run.start + (run.duration if moment.end == "end" else 0.0)
 
     def _passing(self, name: str, event: Event) -> float:
         """Where an output passes a value."""
         member, course = self.place(event.of)
         value = math.radians(event.output) if course.unit == "rad" else event.output
 
-        def off(angle: float) -> float:
-            return float(member.rates(np.array([math.radians(angle)]), 0, course=course)[0][0]) - value
+        def off(angle: Reals) -> Reals:
+            return member.rates(np.radians(angle), 0, course=course)[0] - value
 
         for run in self._seen(name, event):
-            ends = off(run.start), off(run.start + run.duration)
-            if run.name != "dwell" and (ends[0] <= 0.0 <= ends[1] or ends[1] <= 0.0 <= ends[0]):
-                if ends[0] == 0.0:
-                    return run.start
-                return bracketed_root(off, run.start, run.start + run.duration, ends=ends)
+            grid = np.linspace(run.start, run.start + run.duration, _FEWEST)
+            seen = off(grid)
+            if run.name != "dwell" and seen[0] * seen[-1] <= 0.0:
+                change = int(np.argmax(np.sign(seen) != np.sign(seen[0])))
+                return _root(off, grid[change - 1 : change + 1]) if seen[0] else run.start
         where = f" in {event.on}" if event.on else ""
         message = f"{event.of} does not pass {event.output:g}{where}: {self._range(event.of)}"
         raise NoSolution(message, key=f"events.{name}.output")
@@ -365,6 +366,16 @@ class Timing:
         at = np.radians(np.array([angle - phases[self.spec.root(member.name)]]))
         found = float(member.rates(at, order, course=course)[order][0])
         return math.degrees(found) if course.unit == "rad" and order == 0 else found
+
+
+def _runs(member: OnShaft, course: Course, ways: Sequence[tuple[float, float, int]]) -> list[Run]:
+    """Runs of an output by start, duration and sense."""
+    at = np.radians([(start, start + duration) for start, duration, _ in ways])
+    values = member.rates(at.ravel(), 0, course=course)[0].reshape(at.shape)
+    ends = np.asarray(np.degrees(values) if course.unit == "rad" else values).tolist()
+    return [
+        Run(_WORDS[sense], start, length, of, to) for (start, length, sense), (of, to) in zip(ways, ends, strict=True)
+    ]
 
 
 def _remainder(angle: float, width: float) -> float:

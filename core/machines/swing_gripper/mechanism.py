@@ -12,12 +12,14 @@ import numpy as np
 from gearlink.core.machines.swing_gripper.law import PHASES
 from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.joints import Connection, Contact, Pin
-from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
 from gearlink.core.studies.loads.contact import roller_on
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from gearlink.core.machines.swing_gripper.design import SwingGripper
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.numerics.arrays import Reals
@@ -53,23 +55,27 @@ def rocker_too(design: SwingGripper) -> Motion:
 def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
-        links, joints = _linkage(design, phi, order)
+        arm = design.spec.arm
+        links = links_of(design.linkage, phi, order, cmath.rect(arm.length, math.radians(arm.direction)))
         if not cams:
-            return Mechanism(links, joints, "input")
+            return Mechanism(links, Later(lambda: _pins(links)), "input")
         sense = float(cams["main"].sense)
         axis = fixed(design.cam_center, phi, order=order)
         links["cam"] = Link(axis, steady(phi, sense, order=order))
-        joints.append(Pin("O", FRAME, "cam", axis.value))
         if "return" in cams:
             links["return_rocker"] = Link(links["input"].origin, links["input"].turn)
-            joints.append(Pin("A_return", FRAME, "return_rocker", links["input"].origin.value))
-        rollers = {name: roller_on(cam, phi) for name, cam in cams.items()}
-        for name, roller in rollers.items():
-            arm = "input" if name == "main" else "return_rocker"
-            joints.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
-        made = Mechanism(links, joints, "cam", sense, pivot=design.cam_center)
-        for name, roller in rollers.items():
-            made.once(f"roller {name}", lambda roller=roller: roller)  # type: ignore[misc]
+
+        def joints() -> list[Connection]:
+            found = [*_pins(links), Pin("O", FRAME, "cam", axis.value)]
+            if "return" in cams:
+                found.append(Pin("A_return", FRAME, "return_rocker", links["input"].origin.value))
+            for name, cam in cams.items():
+                roller = made.once(f"roller {name}", lambda cam=cam: roller_on(cam, phi))  # type: ignore[misc]
+                arm = "input" if name == "main" else "return_rocker"
+                found.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
+            return found
+
+        made = Mechanism(links, Later(joints), "cam", sense, pivot=design.cam_center)
         return made
 
     starts = np.radians(design.law.starts)
@@ -114,10 +120,8 @@ def links_of(linkage: GripperLinkage, phi: Reals, order: int, arm: complex = 0j)
     }
 
 
-def _linkage(design: SwingGripper, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
-    arm = design.spec.arm
-    links = links_of(design.linkage, phi, order, cmath.rect(arm.length, math.radians(arm.direction)))
-    return links, [
+def _pins(links: Mapping[str, Link]) -> list[Connection]:
+    return [
         Pin("A", FRAME, "input", links["input"].origin.value),
         Pin("C", "input", "coupler", links["coupler"].origin.value),
         Pin("D", "coupler", "output", links["output"].at("D").value),
