@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -17,7 +17,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.many_designs import column, hand_out, sought, together
+from gearlink.core.base.many_designs import column, hand_on, hand_out, sought, stacked, together
 from gearlink.core.base.report import Table, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, unlike, within
@@ -43,7 +43,10 @@ ROWS = 1440
 _SHORTEST_DWELL = math.radians(10.0)
 _SHORTEST_STROKE = math.radians(3.0)
 _FIT_STEPS = 30
-_ALIKE = ("profile", "harmonics", "speed", "sense", "type", "side", "pivot", "direction", "dwell_tolerance", "loads")
+_ALIKE = ("profile", "harmonics", "speed", "sense", "type", "side", "dwell_tolerance", "loads")
+_TURNING = ("pivot", "direction")
+_BEYOND = 0.1
+"""Share of a stroke by which its ends may lie elsewhere in the designs of a study."""
 
 
 class Series(NamedTuple):
@@ -74,12 +77,13 @@ class Series(NamedTuple):
     def at(self, t: Reals, order: int) -> list[Reals]:
         """Radius and its derivatives."""
         k = np.arange(self.cosines.size)
-        cos, sin = np.cos(np.multiply.outer(t, k)), np.sin(np.multiply.outer(t, k))
-        a, b, found = self.cosines, self.sines, []
+        turns = np.multiply.outer(t, k)
+        a, b, of_each = self.cosines, self.sines, []
         for _ in range(order + 1):
-            found.append((cos * a).sum(axis=-1) + (sin * b).sum(axis=-1))
+            of_each.append((a, b))
             a, b = k * b, -k * a
-        return found
+        a, b = np.array(of_each).transpose(1, 2, 0)
+        return list(np.moveaxis(np.cos(turns) @ a + np.sin(turns) @ b, -1, 0))
 
 
 class Contact(NamedTuple):
@@ -133,7 +137,14 @@ class MeasuredCam:
 
     def outward(self, value: Any) -> Any:
         """Its coordinate away from the cam axis [mm, or rad]; that of a rocker from the line pivot -> cam axis."""
-        return value if self.pivot is None else math.pi - self.side * (value - cmath.phase(self.pivot))
+        return value if self.pivot is None else math.pi - self.side * (value - np.angle(self.pivot))
+
+    def turned(self, other: MeasuredCam) -> tuple[MeasuredCam, float]:
+        """It with its follower turned about the cam axis to where that of another stands, and by how much [rad]."""
+        if self.pivot is None or other.pivot is None:
+            return replace(self, direction=other.direction), cmath.phase(other.direction / self.direction)
+        pivot = abs(self.pivot) / abs(other.pivot) * other.pivot
+        return replace(self, pivot=pivot), cmath.phase(other.pivot / self.pivot)
 
     def contact(self, t: Reals) -> Contact:
         """R = C + r_g N with N = -i T, T = C'/|C'|, T' = i w T."""
@@ -157,7 +168,9 @@ class MeasuredCam:
         Raises
             NoSolution - where the follower does not reach the profile
         """
-        at = self.contact(t)
+        return self._touching(t, self.contact(t))
+
+    def _touching(self, t: Reals, at: Contact) -> Follower:
         value, place, way = self._placed(at)
         there, here = _turned(*place), _turned(at.center, at.first, at.second)
         # Both are continuous over a revolution: the roller stays on one side of the cam, its centre near t in the cam.
@@ -212,7 +225,7 @@ class MeasuredCam:
                 fix="check pivot, arm and roller_radius against the machine",
             )
         c1, c2, root = q1 / (2.0 * f * l), q2 / (2.0 * f * l), np.sqrt((1.0 - c) * (1.0 + c))
-        angle = cmath.phase(pivot) + self.side * np.arccos(c)
+        angle = np.angle(pivot) + self.side * np.arccos(c)
         first = -self.side * c1 / root
         second = -self.side * (c2 / root + c * c1 * c1 / root**3)
         arm = l * np.exp(1j * angle)
@@ -278,7 +291,8 @@ class MeasuredCam:
 
     def pressure_angle(self, t: Reals) -> Reals:
         """Angle between the normal of the profile and the way of the roller [rad], without sign."""
-        found, at = self.follower(t), self.contact(t)
+        at = self.contact(t)
+        found = self._touching(t, at)
         normal = at.normal * np.exp(1j * self.sense * found.cam_angle[0])
         along = np.conj(found.way) * normal
         return np.asarray(np.arctan2(np.abs(along.imag), np.abs(along.real)))
@@ -484,20 +498,19 @@ _SENSES = {"rise": 1, "dwell": 0, "return": -1}
 
 
 class MeasuredMotion:
-    """The lift over a revolution of the cam, as that of a disc cam, to its second derivative.
-
-    Parameters
-        cam : MeasuredCam
-        least : float [rad or mm] - minimum coordinate of the follower, outward
-        phases : dwells and strokes
-    """
+    """The lift over a revolution of the cam, as that of a disc cam, to its second derivative."""
 
     joints: tuple[float, ...] = ()
     highest = 2
     """Points of a profile have no third derivative that means something."""
 
-    def __init__(self, cam: MeasuredCam, least: float, phases: list[MeasuredPhase]) -> None:
-        self.cam, self.least, self._phases = cam, least, phases
+    def __init__(self, design: MeasuredCamDesign) -> None:
+        self.design, self.cam = design, design.cam
+
+    @property
+    def least(self) -> float:
+        """Minimum coordinate of the follower, outward [rad or mm]."""
+        return self.design.least
 
     def evaluate(self, phi: Reals, order: int = 2, *, side: int = 1) -> list[Reals]:
         """Lift and its derivatives by the cam angle [mm or rad]; `side` is for laws that jump."""
@@ -507,17 +520,24 @@ class MeasuredMotion:
         return [self.cam.outward(value) - self.least, *(sense * rate for rate in rates)][: order + 1]
 
     @cached_property
-    def strokes(self) -> tuple[Stroke, ...]:
-        """Where the lift rises, falls and stands; what runs over the end of the revolution in two parts.
+    def whole(self) -> list[Stroke]:
+        """Where the lift rises, falls and stands; the last may run over the end of the revolution.
 
         Notes
             The ends of the phases are fitted and may miss each other a little: strokes meet in the middle of that.
         """
-        phases, found = self._phases, []
+        phases, outward = self.design.phases, round(self.cam.outward_sense)
         apart = [(after.start - before.end + math.pi) % _TURN - math.pi for before, after in _round(phases)]
-        for k, each in enumerate(phases):
-            begin, end = each.start - 0.5 * apart[k - 1], each.end + 0.5 * apart[k]
-            sense = _SENSES[each.motion] * round(self.cam.outward_sense)
+        return [
+            Stroke(each.start - 0.5 * apart[k - 1], each.end + 0.5 * apart[k], _SENSES[each.motion] * outward)
+            for k, each in enumerate(phases)
+        ]
+
+    @cached_property
+    def strokes(self) -> tuple[Stroke, ...]:
+        """The same within a revolution: what runs over its end in two parts."""
+        found = []
+        for begin, end, sense in self.whole:
             for off in (-_TURN, 0.0, _TURN):
                 low, high = max(begin + off, 0.0), min(end + off, _TURN)
                 if high > low:
@@ -578,7 +598,7 @@ class MeasuredCams(FollowerCams):
     @cached_property
     def motion(self) -> Any:
         """Lift over the cam angle [mm or rad]."""
-        return MeasuredMotion(self.design.cam, self.design.least, self.design.phases)
+        return MeasuredMotion(self.design)
 
     @cached_property
     def main(self) -> DiscCam:
@@ -593,9 +613,18 @@ class MeasuredCams(FollowerCams):
         return found
 
     def _most_in_strokes(self, sense: int) -> float | None:
-        """Over the stretches of the profile that the strokes touch."""
+        found = [each.value for each in self.steepest_of(sense)]
+        return greatest(found) if found else None
+
+    def steepest_of(self, sense: int, beyond: float = 0.0) -> list[Extreme]:
+        """Maximum pressure angle of each stroke, over the stretch of the profile that it touches; places in its share.
+
+        Parameters
+            sense : of strokes
+            beyond : share of a stroke - by how much farther is looked to either side
+        """
         cam, found = self.design.cam, []
-        for stroke in MeasuredMotion(cam, 0.0, self.design.phases).strokes:
+        for stroke in self.motion.whole:
             if stroke.sense == sense:
                 t = cam.at_cam_angle(np.array([stroke.start, stroke.end]))
                 start, length = t[..., :1], np.mod(-cam.sense * (t[..., 1:] - t[..., :1]), TURN)
@@ -605,8 +634,8 @@ class MeasuredCams(FollowerCams):
                 def course(share: Reals, start: Reals = start, length: Reals = length) -> Reals:
                     return cam.pressure_angle(start - cam.sense * length * share)
 
-                found.append(maximum_over(course, 0.0, 1.0, samples=samples).value)
-        return greatest(found) if found else None
+                found.append(maximum_over(course, -beyond, 1.0 + beyond, samples=samples))
+        return found
 
     @cached_property
     def place(self) -> Place:
@@ -641,22 +670,9 @@ class MeasuredCamDesign(DiscCamDesign):
 
     @classmethod
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
-        """Followers on one profile are sought together; the strokes are those of the first."""
+        """Followers on one profile are sought together."""
         del names
-
-        def find(some: Sequence[Any]) -> None:
-            many, first = cls(together([design.spec for design in some], _ALIKE)), some[0]
-            series = first.cam.series
-            for design in (many, *some):
-                keep(design, cam=design.cam_of(series), residuals=first.residuals)
-            hand_out(many, some, "span", "sharpest", "steepest", "rates", "reach", "star_shaped")
-            keep(many, least=column([design.least for design in some]))
-            for design in (many, *some[1:]):
-                keep(design, phases=first.phases)
-            hand_out(many.cams, [one.cams for one in some], "steepest_rise", "steepest_return", "steepest_dwell")
-            found_forces(many, some)
-
-        sought(find, designs)
+        sought(_find_together, designs)
 
     @property
     def law_definitions(self) -> Mapping[str, Any]:
@@ -664,7 +680,7 @@ class MeasuredCamDesign(DiscCamDesign):
         return {}
 
     @cached_property
-    def cams(self) -> FollowerCams:
+    def cams(self) -> MeasuredCams:
         """The cam as a disc cam."""
         return MeasuredCams(self)
 
@@ -878,3 +894,41 @@ class MeasuredCamDesign(DiscCamDesign):
             "residual": (self.residuals, "mm"),
         }
         return Table.of("profile_fit", columns)
+
+
+def _find_together(designs: Sequence[MeasuredCamDesign]) -> None:
+    """Followers on one profile, turned to where that of the first stands; the strokes are those of the first."""
+    first, series = designs[0], designs[0].cam.series
+    for design in designs:
+        keep(design, cam=design.cam_of(series), residuals=first.residuals)
+    cams, turns = zip(*(design.cam.turned(first.cam) for design in designs), strict=True)
+    follower = {key: getattr(first.spec.follower, key) for key in _TURNING if hasattr(first.spec.follower, key)}
+    specs = [one.spec.model_copy(update={"follower": one.spec.follower.model_copy(update=follower)}) for one in designs]
+    many = type(first)(together(specs, _ALIKE))
+    keep(many, cam=stacked(cams), residuals=first.residuals)
+    hand_out(many, designs, "span", "sharpest", "steepest", "rates", "reach", "star_shaped")
+    for design, turn in zip(designs, turns, strict=True):
+        if turn and design.spec.oscillates:
+            keep(design, span=tuple(value - turn for value in design.span))
+    keep(many, least=column([design.least for design in designs]), phases=first.phases)
+    _find_strokes(many.cams, [one.cams for one in designs])
+    if first.spec.loads is None or not any(turns):  # loads act at cam angles, and gravity along the travel
+        found_forces(many, designs)
+
+
+def _find_strokes(many: MeasuredCams, cams: Sequence[MeasuredCams]) -> None:
+    """Pressure angles of the strokes, where these may begin and end elsewhere and have the same."""
+    count = len(cams)
+    for sense, name in ((1, "steepest_rise"), (-1, "steepest_return")):
+        found = many.steepest_of(sense, _BEYOND)
+        if not found:
+            hand_on(cams, **{name: None})
+            continue
+        values, places = (
+            np.array([np.broadcast_to(np.ravel(part), count) for part in parts]) for parts in zip(*found, strict=True)
+        )
+        best = values.argmax(axis=0), np.arange(count)
+        if not np.all(abs(places[best] - 0.5) < 0.5 - _BEYOND):
+            return
+        hand_on(cams, **{name: values[best]})
+    hand_out(many, cams, "steepest_dwell")

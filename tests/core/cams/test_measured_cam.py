@@ -17,8 +17,10 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.spec_paths import number_at
 from gearlink.core.machines.disc_cam.measured import ROWS, phases_of
 from gearlink.core.parts.cams.laws import law
+from gearlink.core.studies.explore.base import Base
 
 RADIUS, ECCENTRICITY, ROLLER = 60.0, 12.0, 15.0
 PIVOT, ARM = complex(130.0, 0.0), 90.0
@@ -219,3 +221,36 @@ def test_strokes_without_dwell_end_where_the_motion_turns_round() -> None:
     ends = [math.degrees(end) for each in found for end in each[:2]]
     assert ends == pytest.approx([0.0, 150.0, 150.0, 360.0], rel=0.0, abs=360.0 / ROWS)
     assert max(each.deviation for each in found) < 1e-3
+
+
+SLIDE = {"type": "translating", "direction": 90, "offset": 8, "mass": 1.5}
+ROCKER = {"type": "oscillating", "pivot": [90, 20], "arm": 80, "side": -1, "inertia": 0.01}
+PUSHED = {"forces": [{"on": "follower", "force": 5}], "gravity": [0, -9.81], "roller": {"width": 12}}
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(
+    ("follower", "sense", "loads"),
+    [(ROCKER, 1, None), (SLIDE, -1, None), (SLIDE, 1, PUSHED), (ROCKER | {"side": 1}, -1, None)],
+)
+def test_followers_that_stand_elsewhere_are_found_together(follower: Any, sense: int, loads: Any) -> None:
+    """Tolerance: 1e-9; places of extremes, which are flat, 1e-7. Of rockers the ends of strokes are the steepest."""
+    data = factory.worked("loaded_measured_cam") | {"follower": follower, "sense": sense, "loads": loads}
+    base = Base(
+        {key: value for key, value in data.items() if value and key not in ("tolerance", "register")}, "analyze"
+    )
+    moved = ("follower.direction",) if follower is SLIDE else ("follower.pivot[0]", "follower.pivot[1]")
+    rows = [[(key, number_at(base.spec(), key) + 0.3 * (i - 3 * k)) for k, key in enumerate(moved)] for i in range(8)]
+    alone, many = [base.design(row) for row in rows], [base.design(row) for row in rows]
+    type(many[0]).find_together(many, ())
+    assert all("steepest" in vars(design) for design in many)
+    assert all(("steepest_rise" in vars(design.cams)) == (follower is SLIDE) for design in many)
+    for one, other in zip(alone, many, strict=True):
+        for name in one.outline("analyze").quantities:
+            exact = {"abs": 1e-7} if name.endswith("_at") else {"rel": 1e-9}
+            expected = one.raw(name)
+            assert other.raw(name) == (expected if expected is None else pytest.approx(expected, **exact)), name
+        found = [[(c.code, c.status) for name in ("pressure-angle", "lift-off") for c in d.check(name)]
+                 for d in (one, other)]  # fmt: skip
+        assert found[0] == found[1]
+    assert len({design.max_pressure_angle_at for design in many}) == 8
