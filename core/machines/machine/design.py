@@ -189,6 +189,7 @@ class Machine(OfMembers):
     }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes", "servo")
+    at_once = 64
     requirements = Design.requirements | {"require"}
 
     def varied(self, spec: Any) -> Machine:

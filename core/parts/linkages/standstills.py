@@ -124,6 +124,20 @@ def bracketed(f: Function, lows: Sequence[float], highs: Sequence[float], ends: 
     return [bracketed_root(f, low, high, ends=values) for low, high, values in pairs]
 
 
+def crossings(
+    extremes: Sequence[Turning], tolerance: float, period: float | None = TURN
+) -> list[tuple[Turning, Turning]]:
+    """The extremes of a speed before and after each of its zeros; parameters as of `standstills`."""
+    around = extremes
+    if period is not None and extremes:
+        around = [*extremes, Turning(extremes[0].place + period, extremes[0].value)]
+    return [
+        (one, other)
+        for one, other in pairwise(around)
+        if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0
+    ]
+
+
 def standstills(
     speed: Any,
     extremes: Sequence[Turning],
@@ -146,14 +160,7 @@ def standstills(
         >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
         [210.0, 330.0]
     """
-    around = extremes
-    if period is not None and extremes:
-        around = [*extremes, Turning(extremes[0].place + period, extremes[0].value)]
-    between = [
-        (one, other)
-        for one, other in pairwise(around)
-        if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0
-    ]
+    between = crossings(extremes, tolerance, period)
     places = [turning.place for turning in extremes if abs(turning.value) <= tolerance]
     if between:  # values as they were compared: a revolution later the speed is rounded otherwise
         (lows, first), (highs, last) = (zip(*side, strict=True) for side in zip(*between, strict=True))
