@@ -87,7 +87,7 @@ def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:
 def swing(design: SwingGripper) -> Course:
     """What the arm has swung since the bite."""
     linkage = design.linkage
-    start = linkage.output_direction - linkage.output_shift
+    start = linkage.output_direction + linkage.output_shift
     return turned("output", sense=linkage.swing_sense).less(linkage.swing_sense * start)
 
 

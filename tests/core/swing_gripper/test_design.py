@@ -26,6 +26,7 @@ from gearlink.core.base.codes import rules
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.swing_gripper.linkage import clear_turn
+from gearlink.core.machines.swing_gripper.mechanism import motion
 
 EPS = 2.0**-52
 ROOT = Path(__file__).parents[3]
@@ -164,6 +165,17 @@ def test_speed_and_acceleration_of_the_tip_are_those_of_its_path() -> None:
     for found, wanted in ((table["tip_speed"], np.abs(first)), (table["tip_acceleration"], np.abs(second))):
         off = np.abs(found - wanted)
         assert np.quantile(off, 0.98) < 1e-4 * found.max()
+
+
+@pytest.mark.parametrize("direction", [-250.0, 110.0])
+def test_the_swing_of_every_view_is_that_of_the_law(direction: float) -> None:
+    """Table, output of the motion and law, also where ED is given by a direction outside the first revolution."""
+    design = machine(output_direction=direction)
+    law = np.degrees(design.motion.law.evaluate(np.arange(0.0, 360.0, 15.0), 0)[0])
+    assert design.table("motion", samples=24)["beta"] == pytest.approx(law, rel=0.0, abs=64 * EPS * 180.0)
+    moving = motion(design)
+    swing = moving.outputs[0].course.of(moving.at(np.radians([106.0]), 0))[0]
+    assert np.degrees(swing) == pytest.approx([25.2], rel=0.0, abs=64 * EPS * 180.0)
 
 
 def test_rows_of_the_tables() -> None:
