@@ -100,10 +100,13 @@ def _read(text: str) -> Any:
 def _left_out(kind: Kind, text: str) -> str:
     """The keys that a design leaves out, as comments; nothing where it uses all."""
     data = _read(text)
-    rows = []
+    rows, above = [], ""
     for key in spec_keys(kind):
         parent, _, name = key.path.rpartition(".")
         section = part_at(data, parent)
+        if isinstance(section, str) and parent != above:
+            above = parent
+            rows.append((f"# {parent}:", f"a section instead of {section}"))
         if not (isinstance(section, dict) and name in section):
             # In a section that the file has, the whole path tells where the key belongs.
             label = key.path if isinstance(section, dict) else "  " * key.path.count(".") + name

@@ -17,7 +17,7 @@ from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution,
 from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared, up
 from gearlink.core.base.report import NO_NUMBER, Check, Remedy, Rule, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, unlike
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.swing_gripper.codes import (
     CONDITIONING,
     FARTHER,
@@ -317,7 +317,11 @@ def _inside_check(design: SwingGripper, release: Release) -> Check:
     status: Status = "warn" if release.window > room else "pass"
     what = "release window on either side of the handover"
     aside = f"{short(release.window / 360.0 * 3.6e6 / design.spec.speed)} ms, at equal speed"
-    fix = f"set phases.constant to at least {safely_above(2.0 * release.window)} deg, the handover in its middle"
+    first, last = start + release.window, end - release.window
+    if first < last:
+        fix = f"set handover from {within(first, last, 'deg')}"
+    else:
+        fix = f"set phases.constant to at least {safely_above(2.0 * release.window)} deg, the handover in its middle"
     return HANDOVER.check(status, what, release.window, room, "deg", aside=aside, fix=fix)
 
 

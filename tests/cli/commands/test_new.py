@@ -51,6 +51,15 @@ def test_template_opens_with_the_line_that_editors_read(gearlink: Any, kind: str
     assert f"gearlink schema {kind} > {kind}.schema.json" in second
 
 
+def test_a_section_that_may_be_one_word_has_a_heading_of_its_own(gearlink: Any) -> None:
+    """The keys of a law stand under the law, not under what comes before them."""
+    lines = gearlink("new", "swing-gripper").out.splitlines()
+    for law, word in (("accelerate", "velocity-345"), ("decelerate", "half-cycloidal"), ("return", "modified-sine")):
+        place = next(n for n, line in enumerate(lines) if line.startswith(f"# laws.{law}:"))
+        assert lines[place].endswith(f"# a section instead of {word}")
+        assert lines[place + 1].startswith("#     type:")
+
+
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("kind", KINDS)
 def test_template_shows_every_key(gearlink: Any, kind: str) -> None:

@@ -146,6 +146,14 @@ def test_a_window_beyond_the_constant_speed_warns() -> None:
     assert machine(release={"window": 6.0, "gap": 5.0}).check("handover")[1].status == "pass"
 
 
+def test_a_handover_too_near_the_end_of_the_constant_speed_is_moved() -> None:
+    """The phase is long enough: the handover moves, and at both ends of the range the window fits."""
+    check = machine(handover=112.0, release={"window": 2.5, "gap": 5.0}).check("handover")[1]
+    assert (check.status, check.fix) == ("warn", "set handover from 102.5 to 109.5 deg")
+    for place in (102.5, 109.5):
+        assert machine(handover=place, release={"window": 2.5, "gap": 5.0}).check("handover")[1].status == "pass"
+
+
 def test_the_table_is_flat_at_the_handover() -> None:
     table = machine(release={"window": 2.0}).table("handover_window")
     columns = dict(zip(table.columns, table.data, strict=True))
