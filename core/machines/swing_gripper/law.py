@@ -265,6 +265,9 @@ class SixPhaseLaw:
         """Jumps of beta and its three derivatives at the six joints, (6, 4); row i is the start of phase i."""
         ends = np.array([self.in_phase(i, np.array([0.0, 1.0]), 3) for i in range(6)])
         jumps: Reals = ends[:, :, 0] - np.roll(ends[:, :, 1], 1, axis=0)
+        if self.lengths[_FAR_DWELL] == 0.0:  # deceleration and return meet, without a rest between them
+            jumps[_FAR_DWELL + 1] += jumps[_FAR_DWELL]
+            jumps[_FAR_DWELL] = 0.0
         return jumps
 
 

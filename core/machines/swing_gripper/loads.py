@@ -104,9 +104,9 @@ class GripperLoads(CamLoadsDesign):
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
-        """Both dwells."""
+        """Both dwells; the near one alone where the arm turns back at once."""
         a, b, c, far, back, near = (math.radians(length) for length in self.design.motion.phases)
-        return [(a + b + c, far), (a + b + c + far + back, near)]
+        return [zone for zone in ((a + b + c, far), (a + b + c + far + back, near)) if zone[1] > 0.0]
 
     @property
     def transmission_angle(self) -> float:

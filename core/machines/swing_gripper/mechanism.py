@@ -79,7 +79,8 @@ def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:
         return made
 
     starts = np.radians(design.law.starts)
-    phases = tuple((name, float(a), float(b)) for name, a, b in zip(PHASES, starts, starts[1:], strict=False))
+    stretches = zip(PHASES, starts, starts[1:], strict=False)
+    phases = tuple((name, float(a), float(b)) for name, a, b in stretches if a < b)
     outputs = (Output("Gripper arm", swing(design), phases),)
     return Motion(make, Input("theta", joints=_joints(design)), outputs, transmission=("D", "C"))
 

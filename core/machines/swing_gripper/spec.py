@@ -67,7 +67,9 @@ class Phases(Spec):
     accelerate: Phase | None = Field(None, description="from the pick-up to the constant speed")
     constant: Phase | None = Field(None, description="at the speed of the cylinder; the handover lies in it")
     decelerate: Phase | None = Field(None, description="to the far dwell")
-    far_dwell: Phase | None = Field(None, description="rest at the far end")
+    far_dwell: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="rest at the far end; 0: the arm turns back at once"
+    )
     return_: Phase | None = Field(None, alias="return", description="back to the pick-up position")
     near_dwell: Phase | None = Field(
         None, description="rest at the pick-up position; one phase without a value takes the remaining angle"

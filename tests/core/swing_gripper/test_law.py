@@ -103,6 +103,23 @@ def test_a_step_of_the_jerk_is_told() -> None:
     assert np.abs(smooth.joints[:, 3]).max() <= 64 * EPS * peaks(smooth)[3]
 
 
+def test_without_a_far_dwell_deceleration_and_return_meet_in_one_joint() -> None:
+    """Against one-sided limits: third differences of the swing on either side of 162 deg, by steps of 0.01 deg.
+
+    Their error is h times the derivative's slope, 1e-3 of its peak; the step counts 16 EPS of the peak as above.
+    """
+    motion = made(lengths=(100.0, 12.0, 50.0, 0.0, 120.0, 78.0))
+    assert motion.phase(np.array([161.9, 162.0])).tolist() == [2, 4]
+    for order in range(3):
+        assert np.abs(motion.joints[:, order]).max() <= 16 * EPS * peaks(motion)[order]
+    step = 0.01
+    rate = [motion.evaluate(162.0 + sign * step * np.arange(1.0, 3.0), 2)[2] for sign in (-1.0, 1.0)]
+    before, after = (float(a - b) / math.radians(step) for a, b in ((rate[0][0], rate[0][1]), (rate[1][1], rate[1][0])))
+    jumps = motion.joints[:, 3]
+    assert jumps[PHASES.index("far-dwell")] == 0.0
+    assert jumps[PHASES.index("return")] == pytest.approx(after - before, rel=0.0, abs=1e-3 * peaks(motion)[3])
+
+
 def test_the_constant_phase_runs_at_exactly_the_speed() -> None:
     _, rate, second = EXAMPLE.evaluate(np.linspace(100.0, 112.0, 33)[:-1], 2)
     assert (rate == 0.45).all()
