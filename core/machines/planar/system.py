@@ -46,7 +46,7 @@ class Jets:
     Fields
         x, t, e : lists of (N, bodies) arrays - origins, directions, e^(i t)
         side : +1 or -1 - of inputs at which a law changes, the one just after or just before
-        kept : by row - what it knows of the places, for all orders
+        kept : what rows and systems know of the places, for all orders
     """
 
     x: list[Points]
@@ -96,6 +96,49 @@ def _unit(t: Sequence[Reals], e: Sequence[Points]) -> Points:
     return np.asarray(1j / k * sum(j * t[j] * e[k - j] for j in range(1, k + 1)))
 
 
+class _Lines(NamedTuple):
+    """The rows factor Re or Im(z) of lines, side by side; numbers (lines,), of N mechanisms (N, lines).
+
+    Fields
+        rows : numbers of the rows
+        a, b : bodies of the lines and of the points
+        turned, through, point : e^(-i g), a point of the line, the point that is seen
+        unit : factor of z whose real part counts
+        columns : (lines, 6) - of the matrix
+    """
+
+    rows: NDArray[np.intp]
+    a: NDArray[np.intp]
+    b: NDArray[np.intp]
+    turned: Points
+    through: Points
+    point: Points
+    unit: Points
+    columns: NDArray[np.intp]
+
+    def apart(self, jets: Jets, k: int) -> Points:
+        """Coefficient of the points from the origins of the lines' bodies."""
+        return np.asarray(jets.x[k][:, self.b] + self.point * jets.e[k][:, self.b] - jets.x[k][:, self.a])
+
+    def seen(self, jets: Jets, k: int) -> Points:
+        """Coefficient of z."""
+        found = np.conj(jets.e[0][:, self.a]) * self.apart(jets, k)
+        for j in range(1, k + 1):
+            found += np.conj(jets.e[j][:, self.a]) * self.apart(jets, k - j)
+        return np.asarray(self.turned * (found - self.through if k == 0 else found))
+
+    def slopes(self, jets: Jets) -> Reals:
+        """Derivatives of the rows by the unknowns of both bodies; (N, lines, 6)."""
+        c = self.unit * self.turned * np.conj(jets.e[0][:, self.a])
+        arm, reach = 1j * c * self.point * jets.e[0][:, self.b], -1j * c * self.apart(jets, 0)
+        return np.stack([c.real, -c.imag, arm.real, -c.real, c.imag, reach.real], axis=-1)
+
+
+def _side_by_side(numbers: Sequence[Any], dtype: Any) -> Any:
+    """Numbers as an array, (M,); where some are (N,) arrays, (N, M)."""
+    return np.stack(np.broadcast_arrays(*numbers), axis=-1).astype(dtype) if numbers else np.zeros(0, dtype)
+
+
 @dataclass(frozen=True)
 class System:
     """Equations of a mechanism; pins first, two each, then the rows.
@@ -126,11 +169,42 @@ class System:
     @cached_property
     def _pins(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Points, Points, Points]:
         a, b, *places = zip(*self.pins, strict=True) if self.pins else ((), (), (), (), ())
-        s, r, play = (
-            np.asarray(np.stack(np.broadcast_arrays(*each, 0j)[:-1], -1) if each else np.zeros(0), dtype=np.complex128)
-            for each in places
-        )
+        s, r, play = (_side_by_side(each, np.complex128) for each in places)
         return np.array(a, dtype=np.intp), np.array(b, dtype=np.intp), s, r, play
+
+    @cached_property
+    def _turns(self) -> Reals:
+        """Shares of the directions by row and body; (rows, bodies), of N mechanisms (N, rows, bodies)."""
+        count = max((np.size(share) for row in self.rows for share in row.turns.values()), default=1)
+        shares = np.zeros((count, len(self.rows), self.bodies))
+        for i, row in enumerate(self.rows):
+            for body, share in row.turns.items():
+                shares[:, i, body] = share
+        return shares if count > 1 else shares[0]
+
+    @cached_property
+    def _constants(self) -> tuple[Reals, Reals]:
+        """What the rows are less, and that per input; (rows,) or (N, rows)."""
+        constants = _side_by_side([row.constant for row in self.rows], np.float64)
+        return constants, _side_by_side([row.rate for row in self.rows], np.float64)
+
+    @cached_property
+    def _lines(self) -> _Lines | None:
+        """The rows that see a point from a line; None without any."""
+        on = [(i, row, row.line) for i, row in enumerate(self.rows) if row.line is not None]
+        if not on:
+            return None
+        index, a, b = (
+            np.array([each[k] for each in ((i, line.body, line.other) for i, _, line in on)]) for k in range(3)
+        )
+        turned = np.exp(-1j * _side_by_side([line.direction for *_, line in on], np.float64))
+        through, point = (
+            _side_by_side(each, np.complex128)
+            for each in zip(*((line.through, line.point) for *_, line in on), strict=True)
+        )
+        unit = np.array([-1j * row.factor if row.across else row.factor + 0j for _, row, _ in on])
+        columns = np.stack([3 * b, 3 * b + 1, 3 * b + 2, 3 * a, 3 * a + 1, 3 * a + 2], axis=1)
+        return _Lines(index, a, b, turned, through, point, unit, columns)
 
     def values(self, jets: Jets, k: int, q: Reals) -> Reals:
         """Coefficient k of all equations along a motion; (N, count).
@@ -138,54 +212,74 @@ class System:
         Parameters
             q : (N,) array - the input, of which coefficient 1 is 1
         """
-        n, (a, b, s, r, play) = q.size, self._pins
-        found = np.empty((n, self.count))
-        x, e = jets.x[k], jets.e[k]
-        gaps = x[:, b] + r * e[:, b] - x[:, a] - s * e[:, a]
+        pins, (a, b, *_, play) = 2 * len(self.pins), self._pins
+        found = np.empty((q.size, self.count))
+        x, (first, second) = jets.x[k], self._arms(jets, k)
+        gaps = x[:, b] + second - x[:, a] - first
         if k == 0:
-            gaps = gaps - play
-        found[:, 0 : 2 * len(self.pins) : 2], found[:, 1 : 2 * len(self.pins) : 2] = gaps.real, gaps.imag
-        for i, row in enumerate(self.rows, 2 * len(self.pins)):
-            total = np.zeros(n)
-            if row.line is not None:
-                seen = jets.seen(row.line, k)
-                total += row.factor * (seen.imag if row.across else seen.real)
-            for body, share in row.turns.items():
-                total += share * jets.t[k][:, body]
+            gaps -= play
+        found[:, 0:pins:2], found[:, 1:pins:2] = gaps.real, gaps.imag
+        if not self.rows:
+            return found
+        total, shares = found[:, pins:], self._turns
+        total[:] = jets.t[k] @ shares.T if shares.ndim == 2 else np.einsum("nrb,nb->nr", shares, jets.t[k])
+        if k <= 1:
+            constants, rates = self._constants
+            total -= constants + rates * q[:, None] if k == 0 else rates
+        if (lines := self._lines) is not None:
+            total[:, lines.rows] += (lines.unit * lines.seen(jets, k)).real
+        for i, row in self._of_cams:
             if row.lift is not None:
-                total -= row.lift.coefficient(jets, k)
+                total[:, i] -= row.lift.coefficient(jets, k)
             if row.contact is not None:
-                total += row.contact.coefficient(jets, k)
-            if k == 0:
-                total -= row.constant + row.rate * q
-            elif k == 1:
-                total -= row.rate
-            found[:, i] = total
+                total[:, i] += row.contact.coefficient(jets, k)
+        return found
+
+    def _arms(self, jets: Jets, k: int) -> tuple[Points, Points]:
+        """Coefficient of what leads from the origins of the first and second bodies to the pins; of order 0 kept."""
+        a, b, s, r, _ = self._pins
+        if k:
+            return s * jets.e[k][:, a], r * jets.e[k][:, b]
+        if (kept := (id(self), "arms")) not in jets.kept:
+            jets.kept[kept] = s * jets.e[0][:, a], r * jets.e[0][:, b]
+        first, second = jets.kept[kept]
+        return first, second
+
+    @cached_property
+    def _of_cams(self) -> list[tuple[int, Row]]:
+        return [(i, row) for i, row in enumerate(self.rows) if row.lift is not None or row.contact is not None]
+
+    @cached_property
+    def _still(self) -> Reals:
+        """What no motion changes in the matrix, the frame's columns among them; (count, 3 bodies) or (N, ...)."""
+        pins, (a, b, *_) = 2 * len(self.pins), self._pins
+        shares, even = self._turns, np.arange(0, 2 * len(self.pins), 2)
+        found = np.zeros((*shares.shape[:-2], self.count, 3 * self.bodies))
+        for bodies, sign in ((a, -1.0), (b, 1.0)):
+            found[..., even, 3 * bodies] = sign
+            found[..., even + 1, 3 * bodies + 1] = sign
+        found[..., pins:, 2::3] = shares
         return found
 
     def matrix(self, jets: Jets) -> Reals:
         """Derivatives of the equations by the unknowns x_1, y_1, t_1, x_2, ...; (N, count, unknowns)."""
-        x, e = jets.x[0], jets.e[0]
-        n, (a, b, s, r, _) = x.shape[0], self._pins
-        found = np.zeros((n, self.count, 3 * self.bodies))
-        even = 2 * np.arange(len(self.pins))
-        for bodies, places, sign in ((a, s, -1.0), (b, r, 1.0)):
-            arms = sign * 1j * places * e[:, bodies]
-            found[:, even, 3 * bodies] = sign
-            found[:, even + 1, 3 * bodies + 1] = sign
-            found[:, even, 3 * bodies + 2] = arms.real
-            found[:, even + 1, 3 * bodies + 2] = arms.imag
-        for i, row in enumerate(self.rows, 2 * len(self.pins)):
-            if row.line is not None:
-                self._add_line(found[:, i], row, row.line, jets)
-            for body, share in row.turns.items():
-                found[:, i, 3 * body + 2] += share
+        pins, (a, b, *_) = 2 * len(self.pins), self._pins
+        found = np.empty((jets.t[0].shape[0], self.count, 3 * self.bodies))
+        found[:] = self._still
+        even, (first, second) = np.arange(0, pins, 2), self._arms(jets, 0)
+        # i (x + i y) = -y + i x
+        for columns, real, imag in ((3 * a + 2, first.imag, -first.real), (3 * b + 2, -second.imag, second.real)):
+            found[:, even, columns] = real
+            found[:, even + 1, columns] = imag
+        if (lines := self._lines) is not None:
+            found[:, pins + lines.rows[:, None], lines.columns] += lines.slopes(jets)
+        for i, row in self._of_cams:
             if row.lift is not None:
                 slope = row.lift.slope(jets)
                 for body, share in row.lift.turns.items():
-                    found[:, i, 3 * body + 2] -= share * slope
+                    found[:, pins + i, 3 * body + 2] -= share * slope
             if row.contact is not None:
-                self._add_line(found[:, i], row, row.contact.across(jets), jets)
+                self._add_line(found[:, pins + i], row, row.contact.across(jets), jets)
         return found[:, :, 3:]
 
     @staticmethod
