@@ -846,11 +846,9 @@ def swing_cam(name: str, design: Any) -> Part:
     Raises
         NoSolution - where the profile does not exist
     """
-    from gearlink.core.machines.wide_swing.strokes import middle_of
-
     cam, mirror = _served(name, design)
     contact = design.contact_of(cam)
-    center = middle_of(cam)
+    center = cam.middle
     places = sorted({0.0, *contact[0], center, *contact[1], 1.0})
     middle = complex(_pitch_of(cam, mirror)(np.array([center]))[0])
     circles = [Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle)]
@@ -859,7 +857,7 @@ def swing_cam(name: str, design: Any) -> Part:
         circles.append(Circle("SHAFT", shaft))
     return Part(
         name=name,
-        title=f"{'main' if name == 'main_cam' else 'return'} cam, {'ex' if is_external(cam) else 'in'}ternal profile",
+        title=f"{'main' if name == 'main_cam' else 'return'} cam, {'ex' if cam.sense > 0 else 'in'}ternal profile",
         stretches=tuple(_of_stroke(cam, mirror, part, part in contact) for part in pairwise(places)),
         closed=False,
         circles=tuple(circles),
@@ -906,7 +904,7 @@ def _of_stroke(cam: AnyCam, mirror: bool, part: tuple[float, float], touches: bo
 
 
 def _swing_notes(cam: AnyCam, mirror: bool) -> tuple[str, ...]:
-    body = "inside" if is_external(cam) else "outside"
+    body = "inside" if cam.sense > 0 else "outside"
     (first, start), (end, last) = cam.contact
     return (
         f"roller radius {cam.roller_radius:.9g} mm, centre distance {cam.center_distance:.9g} mm, "
@@ -1052,7 +1050,7 @@ def closed_cam(name: str, design: Any) -> Part:
     found = design.check("closed-contour")
     return Part(
         name=name,
-        title=f"{'return' if late else 'main'} cam, closed {'ex' if is_external(closed.cam) else 'in'}ternal contour",
+        title=f"{'return' if late else 'main'} cam, closed {'ex' if closed.cam.sense > 0 else 'in'}ternal contour",
         stretches=tuple(_of_sector(closed, frame, *span) for span in spans),
         closed=True,
         circles=(Circle("SHAFT", shaft),) if shaft > 0.0 else (),
@@ -1084,16 +1082,9 @@ def _closed_notes(closed: Any, cycle: Any, late: bool) -> tuple[str, ...]:
         f"rocker radius {cam.rocker_radius:.9g} mm",
         f"sectors of the pitch curve from its own stroke on: driven, arc, free, arc: {sectors} deg; in the free sector "
         f"the contour keeps {closed.clearance:.9g} mm from the roller",
-        f"the body lies {'in' if is_external(cam) else 'out'}side; the roller's slot at mid-swing is part of it",
+        f"the body lies {'in' if cam.sense > 0 else 'out'}side; the roller's slot at mid-swing is part of it",
         f"frame: {frame}",
     )
-
-
-def is_external(cam: AnyCam) -> bool:
-    """Whether the cam's body lies inside its profile."""
-    from gearlink.core.machines.wide_swing import strokes as outline
-
-    return outline.is_external(cam)
 
 
 _RATES = ("velocity", "acceleration")

@@ -111,13 +111,13 @@ def _mirrored(z: Any, mirror: float) -> tuple[Any, Any]:
 
 
 def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
-    from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc, is_external
+    from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc
 
     run_up, bottom, run_out = contour(cam, design.slot_of(cam))
     edge = np.concatenate((run_up, bottom, run_out))
     rest = dwell_arc(cam) if design.spec.cycle is None else _rest_of_turn(design, cam, mirror)
     x, y = _mirrored(np.concatenate((edge, rest)), mirror)
-    if is_external(cam):
+    if cam.sense > 0:
         style.area(axes, x + 1j * y, color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
     else:
         _ring(axes, x, y, 1.12 * float(np.abs(edge).max()) + cam.roller_radius)
@@ -136,11 +136,9 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
 
 def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
     """Arcs and free sector of a closed contour, in the frame of the cam's own stroke."""
-    from gearlink.core.machines.wide_swing.strokes import is_external
-
     closed = design.cycle.back if cam is design.return_cam or mirror < 0.0 else design.cycle.main
     rest = np.concatenate([points for _, points in closed.outline()[3:]])
-    return rest if is_external(cam) else -rest.conj()
+    return rest if cam.sense > 0 else -rest.conj()
 
 
 def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:
@@ -169,9 +167,7 @@ def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
     axes.plot(
         *_mirrored(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=_DASHED, label="pitch curve", zorder=3
     )
-    from gearlink.core.machines.wide_swing.strokes import middle_of
-
-    middle = middle_of(cam)
+    middle = cam.middle
     zone = min(cam.transition_zone, middle, 1.0 - middle)
     part = cam.points(np.linspace(middle - zone, middle + zone, 101)).pitch
     axes.plot(*_mirrored(part, mirror), color=style.ORANGE, linewidth=3.0, solid_capstyle="butt", zorder=4)
@@ -179,9 +175,9 @@ def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
 
 def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     """The rocker at start, mid-swing and end as the cam sees it."""
-    from gearlink.core.machines.wide_swing.strokes import middle_of, rocker_pivots
+    from gearlink.core.machines.wide_swing.strokes import rocker_pivots
 
-    points = cam.points(np.array([0.0, middle_of(cam), 1.0]))
+    points = cam.points(np.array([0.0, cam.middle, 1.0]))
     pivots = rocker_pivots(cam, points)
     looks = (("start", style.GREEN), ("mid-swing", style.BLACK), ("end", style.PURPLE))
     for roller, pivot, (name, color) in zip(points.pitch, pivots, looks, strict=True):
@@ -223,23 +219,19 @@ def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
 
 
 def _zone(axes: Axes, design: WideSwingDesign) -> None:
-    from gearlink.core.machines.wide_swing.strokes import middle_of
-
-    zone, middle = min(0.5, max(cam.transition_zone for cam in design.cams.values())), middle_of(design.cam)
+    zone, middle = min(0.5, max(cam.transition_zone for cam in design.cams.values())), design.cam.middle
     axes.axvspan(middle - zone, middle + zone, color=ZONE, linewidth=0, zorder=0)
 
 
 def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
-    from gearlink.core.machines.wide_swing.strokes import is_external
-
     stroke_axis(axes, design, "radius [mm]")
     axes.set_yscale("log")
     powers_of_ten(axes.yaxis)
     k = np.linspace(0.0, 1.0, 1001)[1:-1]
     k, greatest = k[k != 0.5], 0.0
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
-        radius, least = cam.points(k).curvature_radius * (1.0 if is_external(cam) else -1.0), ""
+        radius, least = cam.points(k).curvature_radius * cam.sense, ""
         if design.has_zone(cam):
             least = f", ≥ {cam.min_curvature_radius:.4g} mm"
             radius = np.where([any(low <= at <= high for low, high in cam.contact) for at in k], radius, np.nan)
@@ -319,9 +311,7 @@ class Cycle:
         """Angle of an evenly turning cam from mid-swing of the stroke that it guides, the return of the last [rad]."""
         motion = self.design.motion
         if self.design.spec.slider is not None:
-            from gearlink.core.machines.wide_swing.strokes import middle_of
-
-            share = middle_of(self.design.cam)
+            share = self.design.cam.middle
             late, share = (0.5 * self.turned, 1.0 - share) if back else (0.0, share)
             return self.turned * self.fraction - late - share * motion.cycle_angle
         late = 0.5 * self.turned if back else 0.0
@@ -737,13 +727,11 @@ def draw_cams(command: str, design: WideSwingDesign) -> Figure:
 
 def _slot_panel(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
     """The slot that the roller needs at mid-swing, enlarged."""
-    from gearlink.core.machines.wide_swing.strokes import middle_of
-
     start, end = design.slot_of(cam)
     cam_panel(axes, design, "Slot at mid-swing", cam, mirror)
     words = f"contact until k = {start:.4f}\nand from k = {end:.4f}"
     axes.text(0.97, 0.05, words, transform=axes.transAxes, ha="right", va="bottom", fontsize=7.5, zorder=8)
-    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
+    middle = complex(cam.points(np.array([cam.middle])).pitch[0])
     half: Any = _SLOT_VIEW * cam.roller_radius
     axes.set_aspect("equal", adjustable="box")
     axes.set_xlim(middle.real - 1.6 * half, middle.real + 1.6 * half)

@@ -1,20 +1,21 @@
-"""The cam of a wide swing that turns evenly: pitch curve, contact with the roller, profile.
+"""The cam of a wide swing: pitch curve, contact with the roller, profile; of one that turns evenly its sizes too.
 
 With sigma = +1 for the twin-cam (cam and rocker turn against each other) and -1 for the twin-rocker (they turn
 together), the signed radius ratio lambda = sigma r/a and rocker angle psi = sigma phi give the pitch curve
 w = e^{i theta} (-1 + lambda e^{i psi}); the twin-rocker's is -conj(w).
 
-About mid-swing the pitch curve is a cusp, and all that vanishes there is formed from the products
-e = 1 - lambda A with A = 1 + dpsi/dtheta, and s = 1 - cos psi, never from differences.
+Both angles are counted from k*, where the roller passes the line of centres: mid-swing, but for a rocker with a slider
+the place where it is fastest. There the pitch curve is a cusp, and all that vanishes there is formed from the products
+e = chi' - lambda A with A = chi' + psi' (chi' = 1 of a cam that turns evenly), and s = 1 - cos psi, never from
+differences.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import partial
-from typing import Literal, Protocol, TypeAlias
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -24,148 +25,168 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over, maximum_over
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.numerics.roots_sweep import root_between
 from gearlink.core.numerics.together import kept_last
 
 
 class StrokeLaw(Protocol):
-    """What a cam needs of the rocker's law of motion; `ElasticLaw` has it."""
+    """What a cam needs of the rocker's law of motion; `ElasticLaw` and `AimedLaw` have it.
+
+    Fields
+        place : float - k*, fraction of the stroke at which the roller passes the line of centres
+        offset : float [rad] - rocker angle from mid-swing there
+        symmetric : bool - whether both ways from k* are mirror images, with k* = 1/2
+        velocity_peak, acceleration, middle_jerk : float - b, c and dc/dk at k*
+    """
 
     @property
     def swing(self) -> float: ...
     @property
+    def place(self) -> float: ...
+    @property
+    def offset(self) -> float: ...
+    @property
+    def symmetric(self) -> bool: ...
+    @property
     def velocity_peak(self) -> float: ...
+    @property
+    def acceleration(self) -> float: ...
     @property
     def middle_jerk(self) -> float: ...
     def middle_view(self, k: Reals) -> MiddleView: ...
 
-    # by an angle that rises with k, 0 at mid-swing and alike on both sides of it
+    # by an angle that rises with k and is 0 at k*; `turns` at the start and the end of the stroke
     @property
-    def end_turn(self) -> float: ...
+    def turns(self) -> tuple[float, float]: ...
     def view_at(self, turn: Reals) -> MiddleView: ...
     def share_from_middle(self, turn: Reals) -> Reals: ...
     def turn_near(self, share: float) -> float: ...
     def turn_at(self, share: float) -> float: ...
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class CurveState:
-    """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made.
+    """Cam and roller at fractions of the stroke, in centre distances, rates by the input angle; and what follows.
 
-    k and theta are no numbers where nobody asks for them.
+    Fields
+        k : (N,) array - like theta no number where nobody asks for it
+        theta, psi : (N,) arrays [rad] - cam angle and signed rocker angle from k*
+        turning : (N,) array - chi', speed of the cam; 1 of one that turns evenly
+        a, e : (N,) arrays - A = chi' + psi', e = chi' - lambda A
+        s : (N,) array - 1 - cos psi
+        bend : (N,) array - psi'' chi' - psi' chi''
+        sense : int - sigma, +1 external, -1 internal profile
+        ratio : float - signed lambda = sigma r/a
+    Source
+        wide-swing dissertation, chapter 3 and (26); curvature and product forms: own derivation
     """
 
     k: Reals
     theta: Reals
     psi: Reals
-    a: Reals  # A = 1 + dpsi/dtheta
+    turning: Reals
+    a: Reals
     e: Reals
     s: Reals
-    second: Reals  # d2 psi/dtheta2
-
-
-@dataclass(frozen=True, slots=True)
-class PitchCurve:
-    """Pitch curve, normal, curvature and pressure angle over the stroke, in centre distances.
-
-    Parameters
-        law : StrokeLaw - law of motion of the rocker
-        cycle_angle : float [rad] - phi_ud, cam angle of the stroke
-        sense : int - sigma, +1 twin-cam, -1 twin-rocker
-        ratio : float - signed lambda = sigma r/a
-        middle_gap : float - e at mid-swing, 0 with the rocker radius of (18), (24)
-    Source
-        wide-swing dissertation, chapter 3 and (26); curvature and product forms: own derivation
-    """
-
-    law: StrokeLaw
-    cycle_angle: float
+    bend: Reals
     sense: int
     ratio: float
-    middle_gap: float
 
-    def state(self, k: Reals) -> CurveState:
-        """The state at fractions k of the stroke."""
-        return self.state_of(self.law.middle_view(k), k - 0.5)
+    @cached_property
+    def sine(self) -> Reals:
+        """sin psi."""
+        return np.sin(self.psi)
 
-    def state_at(self, turn: Reals) -> CurveState:
-        """The state at angles of the law, but for where the cam stands: neither pressure angle nor curvature ask it."""
-        return self.state_of(self.law.view_at(turn), np.full_like(turn, math.nan))
-
-    def timed_state_at(self, turn: Reals) -> CurveState:
-        """The whole state at angles of the law."""
-        return self.state_of(self.law.view_at(turn), self.law.share_from_middle(turn))
-
-    def state_of(self, view: MiddleView, share: Reals) -> CurveState:
-        """The state of a view of the law at k - 1/2."""
-        speed_ratio = self.law.swing / self.cycle_angle
-        turn = self.sense * speed_ratio
-        return CurveState(
-            k=0.5 + share,
-            theta=share * self.cycle_angle,
-            psi=self.sense * view.angle,
-            a=1.0 + turn * view.velocity,
-            e=self.middle_gap + abs(self.ratio) * speed_ratio * view.deficit,
-            s=2.0 * np.sin(0.5 * view.angle) ** 2,
-            second=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
-        )
-
-    def correction(self, state: CurveState) -> Reals:
+    @property
+    def correction(self) -> Reals:
         """beta, polar angle of the roller centre against the centre line."""
         ratio = self.ratio
-        return np.arctan2(ratio * np.sin(state.psi), (1.0 - ratio) + ratio * state.s)
+        return np.arctan2(ratio * self.sine, (1.0 - ratio) + ratio * self.s)
 
-    def pitch(self, state: CurveState) -> Points:
-        """w, the roller centre in the cam's frame."""
+    @property
+    def arm(self) -> Points:
+        """The roller centre from the cam axis, in the frame of the line of centres."""
         ratio = self.ratio
-        arm = -((1.0 - ratio) + ratio * state.s) + 1j * ratio * np.sin(state.psi)
-        result: Points = np.exp(1j * state.theta) * arm
+        arm: Points = -((1.0 - ratio) + ratio * self.s) + 1j * ratio * self.sine
+        return arm
+
+    @property
+    def pitch(self) -> Points:
+        """w, the roller centre in the cam's frame."""
+        result: Points = np.exp(1j * self.theta) * self.arm
         return result
 
-    def gradient(self, state: CurveState) -> Points:
-        """g = 1 - lambda A e^{i psi}, along the inward normal in the centre line's frame."""
-        pull = self.ratio * state.a
-        result: Points = (state.e + pull * state.s) - 1j * pull * np.sin(state.psi)
+    @cached_property
+    def gradient(self) -> Points:
+        """g = chi' - lambda A e^{i psi}, along the inward normal in the centre line's frame; |g| the roller's way."""
+        pull = self.ratio * self.a
+        result: Points = (self.e + pull * self.s) - 1j * pull * self.sine
         return result
 
-    def normal(self, state: CurveState) -> Points:
-        """Unit normal with an inward radial part; at the cusp the limit of the run-up."""
-        g = self.gradient(state)
-        size = np.abs(g)
+    @property
+    def heading(self) -> Points:
+        """What has its direction."""
+        return self.gradient
+
+    @cached_property
+    def unit(self) -> Points:
+        """Its direction; at the cusp the limit of the run-up."""
+        heading = self.heading
+        size = np.abs(heading)
         cusp = size == 0.0
-        unit = g / np.where(cusp, 1.0, size) + np.where(cusp, 1j * self.sense, 0.0)
-        result: Points = np.exp(1j * state.theta) * unit
+        result: Points = heading / np.where(cusp, 1.0, size) + np.where(cusp, 1j * self.sense, 0.0)
         return result
 
-    def curvature(self, state: CurveState) -> Reals:
+    @property
+    def outward(self) -> Points:
+        """Direction in which the profile pushes the roller, in the frame of the line of centres."""
+        return np.asarray(-self.sense * self.unit)
+
+    @property
+    def normal(self) -> Points:
+        """Unit normal in the cam's frame with an inward radial part."""
+        result: Points = np.exp(1j * self.theta) * self.unit
+        return result
+
+    @property
+    def curvature(self) -> Reals:
         """Curvature times centre distance, positive with the centre towards the cam axis, infinite at the cusp."""
-        ratio, a = self.ratio, state.a
-        turn = state.e * (1.0 - ratio * a * a) + state.s * ratio * a * (1.0 + a)
-        turn = turn - ratio * state.second * np.sin(state.psi)
-        size = np.abs(self.gradient(state)) ** 3
+        ratio, a, turning = self.ratio, self.a, self.turning
+        turn = self.e * (turning * turning - ratio * a * a) + self.s * ratio * a * turning * (turning + a)
+        turn = turn - ratio * self.bend * self.sine
+        size = np.abs(self.gradient) ** 3
         cusp = size == 0.0
         return np.where(cusp, self.sense * math.inf, turn / np.where(cusp, 1.0, size))
 
-    def pressure_angle(self, state: CurveState) -> Reals:
-        """delta from tan delta = (lambda A - cos phi)/sin phi."""
-        sine = np.sin(self.sense * state.psi)
-        return np.arctan2((state.s - state.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
+    @property
+    def bulge(self) -> Reals:
+        """The same, positive where the pitch curve bulges from the body."""
+        return np.asarray(self.sense * self.curvature)
 
-    def acceleration(self, state: CurveState) -> Reals:
-        """|c| of the law."""
-        return np.asarray(np.abs(state.second) * self.cycle_angle**2 / self.law.swing)
+    @property
+    def pressure_angle(self) -> Reals:
+        """delta from tan delta = (lambda A - chi' cos phi)/(chi' sin phi)."""
+        sine = self.sense * self.sine * self.turning
+        return np.arctan2((self.turning * self.s - self.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
 
-    def loop_measure(self, state: CurveState) -> Reals:
+    @property
+    def loop_measure(self) -> Reals:
         """(dTheta/dtheta) rho^2/(1 - cos phi) = (1 - lambda) e/s + lambda (1 + A), away from mid-swing."""
-        result: Reals = (1.0 - self.ratio) * state.e / state.s + self.ratio * (1.0 + state.a)
+        result: Reals = (1.0 - self.ratio) * self.e / self.s + self.ratio * (1.0 + self.a)
         return result
+
+    def resting(self) -> CurveState:
+        """The same places with the rocker at rest: on the arc beside the stroke."""
+        ones = np.ones_like(self.k)
+        return replace(self, a=ones, e=(1.0 - self.ratio) * ones, bend=0.0 * ones)
 
 
 # Contact of a wide-swing roller about mid-swing: its exact end, and the dissertation's estimates of curvature
 
 
+Part = TypeVar("Part")
 Step: TypeAlias = Callable[["Reals"], tuple["Reals", "Reals"]]
 
 SMALLEST = 1e-4
@@ -231,21 +252,16 @@ def fitting_roller(length: float, depth: float) -> float:
     return length * length / (2.0 * depth) if depth > 0.0 else math.inf
 
 
-def contact_end(cam: WideSwingCam) -> float:
-    """Fraction of the stroke of `end_of_contact`."""
-    return end_of_contact(cam)[0]
-
-
-def end_of_contact(cam: WideSwingCam) -> tuple[float, float]:
-    """Fraction of the stroke where the roller leaves the profile, whose rest its slot at mid-swing has cut away.
+def end_of_contact(cam: WideSwingCam, side: float = -1.0) -> tuple[float, float]:
+    """Where the roller leaves the profile on one side of k*, whose rest its slot there has cut away.
 
     Parameters
         cam : WideSwingCam
+        side : float - -1 before k*, 1 behind it
     Returns
-        k : float - at most 1/2; the mirror image 1 - k is where contact begins again
-        turn : float - the angle of the law there
+        k, turn : floats - fraction of the stroke, and angle of the law there
     Raises
-        NoSolution - where the roller at mid-swing covers the start of the profile, or the pitch curve has a loop
+        NoSolution - where the roller at k* covers a whole side of the profile, or the pitch curve has a loop
     Notes
         With a rocker radius below that of (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where the
         roller, standing there, cuts nothing away. Where it does, it cuts more just before mid-swing. At a cusp the
@@ -260,13 +276,14 @@ def end_of_contact(cam: WideSwingCam) -> tuple[float, float]:
     law, smooth = cam.law, cam.rocker_radius < cam.nominal_rocker_radius
     estimate = SMALLEST if smooth else min(cam.transition_zone_estimate, 0.5)
     if estimate < SMALLEST:
-        return 0.5 - estimate, law.turn_at(-estimate)
-    turn = covered(partial(step_before_middle, cam), cam.roller_radius, law.end_turn, law.turn_near(estimate))
-    end = 0.5 + float(law.share_from_middle(np.array([-turn]))[0])
-    if smooth and turn > 0.0:
+        return cam.middle + side * estimate, law.turn_at(side * estimate)
+    far = abs(law.turns[side > 0.0])
+    turn = side * covered(lambda t: cam.step_at(side * t), cam.roller_radius, far, law.turn_near(estimate))
+    end = cam.middle + float(law.share_from_middle(np.array([turn]))[0])
+    if smooth and turn < 0.0:
         end = _cut_on_the_way(cam, end)
-        turn = -law.turn_at(end - 0.5)
-    return end, -turn
+        turn = law.turn_at(end - cam.middle)
+    return end, turn
 
 
 def _cut_on_the_way(cam: WideSwingCam, end: float) -> float:
@@ -292,11 +309,11 @@ def roller_before_middle(cam: WideSwingCam, k: float) -> float:
     Returns
         r_p : float [mm] - infinite where every roller does
     """
-    here = cam.curve.state(np.array([k]))
-    place, normal = cam.curve.pitch(here)[0], cam.sense * np.conj(cam.curve.normal(here)[0])
+    here = cam.state(np.array([k]))
+    place, normal = here.pitch[0], cam.sense * np.conj(here.normal[0])
 
     def needed(part: Reals) -> Reals:
-        step = place - cam.curve.pitch(cam.curve.state(k + (0.5 - k) * part))
+        step = place - cam.state(k + (0.5 - k) * part).pitch
         found: Reals = -2.0 * (step * normal).real / np.abs(step) ** 2
         return found
 
@@ -304,35 +321,10 @@ def roller_before_middle(cam: WideSwingCam, k: float) -> float:
     return cam.center_distance / bend if bend > 0.0 else math.inf
 
 
-def middle_step(cam: WideSwingCam, t: Reals) -> tuple[Reals, Reals]:
-    """Lengths of the pitch point's steps to mid-swing from t before it, and their parts along the profile's normal
-    [mm]."""
-    return _step_to_middle(cam, cam.curve.state(0.5 - t))
-
-
-def step_before_middle(cam: WideSwingCam, turn: Reals) -> tuple[Reals, Reals]:
-    """The same from angles of the law before mid-swing."""
-    return _step_to_middle(cam, cam.curve.timed_state_at(-turn))
-
-
-def room_before_middle(cam: WideSwingCam, turn: Reals) -> Reals:
-    """How far the profile at angles of the law before mid-swing is from the roller there: |d|^2 + 2 r_p d n [mm^2]."""
-    return _room(step_before_middle(cam, turn), cam.roller_radius)
-
-
 def _room(step: tuple[Reals, Reals], roller_radius: float) -> Reals:
     length, depth = step
     room: Reals = length * length - 2.0 * roller_radius * depth
     return room
-
-
-def _step_to_middle(cam: WideSwingCam, state: CurveState) -> tuple[Reals, Reals]:
-    # z(k) - z(1/2) in terms that vanish at mid-swing, each of them exact
-    half = np.exp(0.5j * state.theta)
-    turned = -2j * np.sin(0.5 * state.theta) * half * (1.0 - cam.ratio)
-    step = turned + cam.ratio * half * half * (1j * np.sin(state.psi) - state.s)
-    size = cam.center_distance
-    return size * np.abs(step), -size * cam.sense * (step * np.conj(cam.curve.normal(state))).real
 
 
 def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:
@@ -430,15 +422,179 @@ class CamPoints:
     curvature_radius: Reals
 
 
+class StrokeCam:
+    """What the cams of all layouts share: radii, contact and profile, out of the pitch curve of a subclass.
+
+    Fields
+        law : StrokeLaw - law of motion of the rocker, which gives k*
+        center_distance, roller_radius : float [mm] - a, r_p
+        sense : int - +1 of an external, -1 of an internal profile
+        ratio : float - signed lambda = sense r/a
+    """
+
+    law: StrokeLaw
+    center_distance: float
+    roller_radius: float
+
+    if TYPE_CHECKING:
+
+        @property
+        def sense(self) -> int: ...
+        @property
+        def ratio(self) -> float: ...
+        @property
+        def contact(self) -> tuple[tuple[float, float], tuple[float, float]]: ...
+        @property
+        def tops(self) -> list[list[Extreme]]: ...
+        def state(self, k: Reals, /) -> CurveState: ...
+        def step(self, k: Reals, stop: float, /) -> tuple[Reals, Reals]: ...
+        def require_profile(self) -> None: ...
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both parts of the profile beside k* are mirror images."""
+        return False
+
+    def sides(self, *parts: Part) -> tuple[Part, ...]:
+        """Of something on each side of k* those that say different things."""
+        return parts[:1] if self.symmetric else parts
+
+    @property
+    def middle(self) -> float:
+        """k*, fraction of the stroke at which the roller is on the line of centres."""
+        return self.law.place
+
+    @property
+    def arm_offset(self) -> float:
+        """phi_0, rocker angle from mid-swing at which the roller is on the line of centres [rad]."""
+        return self.law.offset
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Rocker angles between the line of centres and both ends of the swing [rad]."""
+        half = 0.5 * self.law.swing
+        return half + self.law.offset, half - self.law.offset
+
+    def pitch_radius(self, phi: float) -> float:
+        """Pitch radius at a rocker angle from the line of centres [mm] (dissertation (20))."""
+        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(phi), self.ratio * math.sin(phi))
+
+    @cached_property
+    def middle_radius(self) -> float:
+        """Pitch radius at k*, a - r external, a + r internal [mm]."""
+        return abs(1.0 - self.ratio) * self.center_distance
+
+    @cached_property
+    def end_radius(self) -> float:
+        """Pitch radius at the ends of the stroke, the greater one [mm]."""
+        return max(map(self.pitch_radius, self.ends))
+
+    @property
+    def min_radius(self) -> float:
+        """Minimum pitch radius [mm]."""
+        return min(self.middle_radius, self.end_radius)
+
+    @property
+    def max_radius(self) -> float:
+        """Largest pitch radius [mm]."""
+        return max(self.middle_radius, self.end_radius)
+
+    @cached_property
+    def transition_zone(self) -> float:
+        """Part of the stroke beside k*, on its wider side, where the roller, in its slot, has left the profile.
+
+        Raises
+            NoSolution - for a profile that does not exist
+        Notes
+            1/2 where the roller at k* covers the profile of a whole side.
+        """
+        self.require_profile()
+        try:
+            (_, before), (after, _) = self.contact
+        except NoSolution:
+            return 0.5
+        return self.middle - before if self.symmetric else max(self.middle - before, after - self.middle)
+
+    def largest_roller(self, zone: float) -> float:
+        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
+        places = [self.middle - zone] if self.symmetric else [self.middle - zone, self.middle + zone]
+        lengths, depths = self.step(np.clip(places, 0.0, 1.0), self.middle)
+        return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
+
+    def pressure_angle(self, k: Reals) -> Reals:
+        """Pressure angle at fractions of the stroke [rad], of the pitch curve even where it has a loop."""
+        return self.state(k).pressure_angle
+
+    def bulge(self, k: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
+        return np.asarray(self.state(k).bulge / self.center_distance)
+
+    @cached_property
+    def min_curvature_radius(self) -> float:
+        """Minimum radius of the pitch curve where it bulges from the body and the roller touches it [mm].
+
+        Raises
+            NoSolution - where it touches nothing
+        Notes
+            In the transition zone the radius falls to zero at k* whatever the design, and so it does at an end of the
+            stroke of a cam that stops and bulges there. Infinite where the curve bulges nowhere outside.
+        """
+        peak = max(each[-1].value for each in self.tops)
+        return self.center_distance / peak if peak > 0.0 else math.inf
+
+    def points(self, k: Reals) -> CamPoints:
+        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
+
+        z = e^{i theta}(-1 + lambda e^{i phi}), tan delta = (lambda A - cos phi)/sin phi
+        R = |1 - lambda A e^{i phi}|^3/(1 - lambda A (1 + A) cos phi + lambda^2 A^3 - lambda phi'' sin phi)
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        Returns
+            points : CamPoints
+        Raises
+            NoSolution - for k outside 0 to 1, or a profile that does not exist
+        Notes
+            The body lies inside an external and outside an internal profile. k* is taken as the end of the
+            run-up. The profile points between the two parts of `contact` are cut away by the slot that the
+            roller needs at k*. The curvature of a cam that turns evenly keeps a relative accuracy of about 1e-13
+            up to the cusp itself.
+        Example
+            >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+            >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+            >>> points = WideSwingCam("twin-cam", law, math.radians(120), 1.0, 0.04).points(np.array([0.25]))
+            >>> points.profile.round(9).tolist()
+            [(-0.724642568+0.156427799j)]
+
+        Source
+            wide-swing dissertation, chapter 3 and (26); curvature: own derivation
+        """
+        self.require_profile()
+        state = self.state(np.asarray(k, dtype=np.float64))
+        pitch, place = state.pitch, self.center_distance
+        profile = pitch + self.sense * self.roller_radius / place * state.normal
+        with np.errstate(divide="ignore"):
+            radius = place / state.curvature + 0.0
+        return CamPoints(
+            k=state.k,
+            cam_angle=state.theta,
+            polar_angle=state.theta - state.correction,
+            pitch=place * _mirrored(pitch, self.sense),
+            profile=place * _mirrored(profile, self.sense),
+            pressure_angle=state.pressure_angle,
+            curvature_radius=radius,
+        )
+
+
 @dataclass(frozen=True)
-class WideSwingCam:
-    """One cam of a twin-cam or twin-rocker mechanism; every property is computed when it is read.
+class WideSwingCam(StrokeCam):
+    """One cam of a twin-cam or twin-rocker mechanism that turns evenly; every property is computed when it is read.
 
     r = a/(B alpha + 1) external, a/(B alpha - 1) internal, alpha = gamma/phi_ud
 
     Parameters
         layout : "twin-cam" (external profile) or "twin-rocker" (internal profile)
-        law : StrokeLaw - law of motion of the rocker
+        law : StrokeLaw - law of motion of the rocker; of one with a slider an `AimedLaw`, seen from where it is fastest
         cycle_angle : float [rad] - phi_ud, cam angle of one stroke
         center_distance, roller_radius : float [mm] - a, r_p
         given_rocker_radius : float or None [mm] - instead of the r of (18) or (24)
@@ -455,6 +611,8 @@ class WideSwingCam:
         >>> cam = WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)
         >>> round(cam.rocker_radius, 9), round(math.degrees(cam.phase_angle), 9)
         (74.417949578, 38.401731774)
+        >>> round(cam.contact[0][1], 9)
+        0.462338155
 
     Source
         wide-swing dissertation (18) to (22), (24) to (26); cusp, transition zone and existence: own derivation
@@ -469,7 +627,7 @@ class WideSwingCam:
     angle_words: str = field(default="the cycle angle", compare=False)
 
     def __post_init__(self) -> None:
-        _require_lengths(self.center_distance, self.roller_radius, self.given_rocker_radius)
+        require_lengths(self.center_distance, self.roller_radius, self.given_rocker_radius)
         if not 0.0 < self.cycle_angle <= 2.0 * math.pi:
             raise NoSolution(
                 f"cam angle of the stroke: {unlike(math.degrees(self.cycle_angle), 360.0)} deg (above 0, at most 360 "
@@ -496,11 +654,16 @@ class WideSwingCam:
         return 1 if self.layout == "twin-cam" else -1
 
     @property
+    def symmetric(self) -> bool:
+        """As the law is, of a cam that turns evenly."""
+        return self.law.symmetric
+
+    @property
     def speed_ratio(self) -> float:
         """alpha = gamma/phi_ud, mean speed of the rocker over the cam's."""
         return self.law.swing / self.cycle_angle
 
-    @property
+    @cached_property
     def speed_ratio_peak(self) -> float:
         """B alpha."""
         return self.law.velocity_peak * self.speed_ratio
@@ -527,38 +690,58 @@ class WideSwingCam:
             return 0.0
         return 1.0 - self.given_rocker_radius / self.nominal_rocker_radius
 
-    @cached_property
-    def curve(self) -> PitchCurve:
-        """The pitch curve in centre distances."""
-        return PitchCurve(self.law, self.cycle_angle, self.sense, self.ratio, self._middle_gap)
+    def state(self, k: Reals) -> CurveState:
+        """Cam and roller at fractions k of the stroke."""
+        return self.state_of(self.law.middle_view(k), k - self.middle)
 
-    @cached_property
-    def middle_radius(self) -> float:
-        """Pitch radius at mid-swing, a - r external, a + r internal [mm]."""
-        return abs(1.0 - self.ratio) * self.center_distance
+    def state_at(self, turn: Reals) -> CurveState:
+        """The same at angles of the law, but for where the cam stands: neither pressure angle nor curvature ask it."""
+        return self.state_of(self.law.view_at(turn), np.full_like(turn, math.nan))
 
-    @cached_property
-    def end_radius(self) -> float:
-        """Pitch radius at the ends of the stroke [mm] (dissertation (20))."""
-        half = self.ratio * math.sin(0.5 * self.law.swing)
-        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(0.5 * self.law.swing), half)
+    def state_of(self, view: MiddleView, share: Reals) -> CurveState:
+        """The same of a view of the law at k - k*."""
+        speed_ratio = self.speed_ratio
+        return CurveState(
+            k=self.middle + share,
+            theta=share * self.cycle_angle,
+            psi=self.sense * view.angle,
+            turning=np.ones_like(share),
+            a=1.0 + self.sense * speed_ratio * view.velocity,
+            e=self._middle_gap + abs(self.ratio) * speed_ratio * view.deficit,
+            s=2.0 * np.sin(0.5 * view.angle) ** 2,
+            bend=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
+            sense=self.sense,
+            ratio=self.ratio,
+        )
 
-    @property
-    def min_radius(self) -> float:
-        """Minimum pitch radius [mm]."""
-        return min(self.middle_radius, self.end_radius)
+    def step(self, k: Reals, _stop: float, /) -> tuple[Reals, Reals]:
+        """Lengths of the pitch point's steps to k*, and their parts along the profile's normal [mm]."""
+        return self._step(self.state(k))
 
-    @property
-    def max_radius(self) -> float:
-        """Largest pitch radius [mm]."""
-        return max(self.middle_radius, self.end_radius)
+    def step_at(self, turn: Reals) -> tuple[Reals, Reals]:
+        """The same from angles of the law."""
+        return self._step(self.state_of(self.law.view_at(turn), self.law.share_from_middle(turn)))
+
+    def room_at(self, turn: Reals) -> Reals:
+        """How far the profile at angles of the law is from the roller at k*: |d|^2 + 2 r_p d n [mm^2]."""
+        return _room(self.step_at(turn), self.roller_radius)
+
+    def _step(self, state: CurveState) -> tuple[Reals, Reals]:
+        # z(k) - z(k*) in terms that vanish there, each of them exact
+        half = np.exp(0.5j * state.theta)
+        turned = -2j * np.sin(0.5 * state.theta) * half * (1.0 - self.ratio)
+        step = turned + self.ratio * half * half * (1j * state.sine - state.s)
+        size = self.center_distance
+        return size * np.abs(step), -size * self.sense * (step * np.conj(state.normal)).real
+
+    def correction(self, phi: float) -> float:
+        """xi, polar angle of the roller against the centre line at a rocker angle from there [rad] ((19), (25))."""
+        return math.atan2(abs(self.ratio) * math.sin(phi), 1.0 - self.ratio * math.cos(phi))
 
     @cached_property
     def profile_correction(self) -> float:
-        """xi at the end of the stroke, polar angle of the roller against the centre line [rad] ((19), (25))."""
-        half = 0.5 * self.law.swing
-        ratio = abs(self.ratio)
-        return math.atan2(ratio * math.sin(half), 1.0 - self.ratio * math.cos(half))
+        """xi at the end of the stroke [rad]."""
+        return self.correction(0.5 * self.law.swing)
 
     @cached_property
     def largest_profile_correction(self) -> float:
@@ -584,7 +767,7 @@ class WideSwingCam:
 
         R0 = rho^2/(rho + lambda sin(gamma/2) psi''(0)/rho)
         """
-        curvature = float(self.curve.curvature(self.curve.state(np.zeros(1)))[0])
+        curvature = float(self.state(np.zeros(1)).curvature[0])
         return self.center_distance / curvature if curvature != 0.0 else math.inf
 
     @cached_property
@@ -612,38 +795,27 @@ class WideSwingCam:
 
     @cached_property
     def contact(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Parts of the stroke in which the roller touches the profile.
+        """Parts of the stroke in which the roller touches the profile, whose rest its slot at k* has cut away.
 
         Raises
-            NoSolution - for a profile that does not exist, or where the roller at mid-swing covers its start
-        """
-        end, _ = self.contact_end
-        return (0.0, end), (1.0 - end, 1.0)
-
-    @cached_property
-    def contact_end(self) -> tuple[float, float]:
-        """Where the roller leaves the profile before mid-swing: fraction of the stroke, and angle of the law."""
-        self.require_profile()
-        return end_of_contact(self)
-
-    @cached_property
-    def transition_zone(self) -> float:
-        """Part of the stroke each side of mid-swing where the roller, in its slot, has left the profile.
-
-        Raises
-            NoSolution - for a profile that does not exist
+            NoSolution - for a profile that does not exist, or where the roller at k* covers a whole side of it
         Notes
-            1/2 where the roller at mid-swing covers the profile of the whole run-up.
+            With a rocker radius below that of (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where the
+            roller, standing there, cuts nothing away. Where it does, it cuts more just before mid-swing.
         """
         self.require_profile()
-        try:
-            return 0.5 - self.contact[0][1]
-        except NoSolution:
-            return 0.5
+        ends = [end for end, _ in self.contact_ends]
+        return (0.0, ends[0]), (1.0 - ends[0] if self.symmetric else ends[1], 1.0)
+
+    @cached_property
+    def contact_ends(self) -> tuple[tuple[float, float], ...]:
+        """Where the roller leaves the profile on the sides of k*: fraction of the stroke, and angle of the law."""
+        self.require_profile()
+        return tuple(end_of_contact(self, side) for side in self.sides(-1.0, 1.0))
 
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        most = fitting_roller(*(float(part[0]) for part in middle_step(self, np.array([zone]))))
+        most = super().largest_roller(zone)
         return most if self._middle_gap == 0.0 else min(most, roller_before_middle(self, 0.5 - zone))
 
     @cached_property
@@ -654,13 +826,15 @@ class WideSwingCam:
         """
         if self._middle_gap != 0.0:
             return math.inf if self._middle_gap > 0.0 else -math.inf
-        return min(self.least_loop_measure, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
+        return min(*self.least_loop_measures, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
 
     @cached_property
-    def least_loop_measure(self) -> float:
-        """Minimum of it before mid-swing; nearer than a thousandth it is as good as that at mid-swing."""
-        curve, end = self.curve, self.law.end_turn
-        return minimum_over(lambda turn: curve.loop_measure(curve.state_at(turn)), -end, -1e-3 * end, samples=256).value
+    def least_loop_measures(self) -> tuple[float, ...]:
+        """Minima of it on the sides of k*; nearer than a thousandth it is as good as that at k*."""
+        start, end = self.law.turns
+        sides = self.sides((start, 1e-3 * start), (1e-3 * end, end))
+        found = extremes_of_parts([(lambda turn: self.state_at(turn).loop_measure, False)], sides, samples=256)
+        return tuple(each.value for (each,) in found)
 
     def _loop(self, value: float) -> NoSolution:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
@@ -686,35 +860,37 @@ class WideSwingCam:
             )
         if self.loop_margin <= 0.0:
             raise self._loop(self.loop_margin)
-        if self.phase_angle <= 0.0:
-            raise NoSolution(
-                f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0",
-                fix=(
-                    f"increase {self.angle_words} above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
-                ),
-            )
+        for end, share in zip(self.ends, (self.middle, 1.0 - self.middle), strict=True):
+            turned = self.correction(end)
+            phase = share * self.cycle_angle - turned
+            if phase <= 0.0:
+                raise NoSolution(
+                    f"phase angle {math.degrees(phase):.4g} deg of the run-up is not above 0",
+                    fix=f"increase {self.angle_words} above {safely_above(math.degrees(turned / share))} deg",
+                )
 
     @cached_property
     def pressing(self) -> tuple[Extreme, Extreme]:
-        """Maximum and minimum of the rocker's acceleration |c|/cos delta where the roller touches the profile.
+        """Maximum and minimum of the rocker's acceleration |c|/cos delta where the roller touches before k*.
 
         Raises
             NoSolution - where it touches nothing
         """
-        curve = self.curve
 
         def press(turn: Reals) -> Reals:
-            state = curve.state_at(turn)
-            found: Reals = curve.acceleration(state) / np.cos(curve.pressure_angle(state))
+            state = self.state_at(turn)
+            size = self.cycle_angle**2 / self.law.swing
+            found: Reals = size * np.abs(state.bend) / np.cos(state.pressure_angle)
             return found
 
-        most, least = extremes_over([(press, True), (press, False)], *self._touching, samples=128)
+        most, least = extremes_over([(press, True), (press, False)], *self._touching[0], samples=128)
         return most, least
 
     @property
-    def _touching(self) -> tuple[float, float]:
-        """Angles of the law before mid-swing between which the roller touches the profile."""
-        return -self.law.end_turn, self.contact_end[1]
+    def _touching(self) -> tuple[tuple[float, float], ...]:
+        """Angles of the law between which the roller touches the profile, on the sides of k*."""
+        (start, end), (before, *after) = self.law.turns, (turn for _, turn in self.contact_ends)
+        return ((start, before), *((turn, end) for turn in after))
 
     @cached_property
     def max_pressure_angle(self) -> float:
@@ -725,88 +901,14 @@ class WideSwingCam:
         Notes
             With a rocker radius below that of (18), (24) the contact lasts to mid-swing, where the angle is 90 deg.
         """
-        return self.tops[0].value
+        return max(angle.value for angle, _ in self.tops)
 
     @cached_property
-    def tops(self) -> list[Extreme]:
+    def tops(self) -> list[list[Extreme]]:
         """Maximum pressure angle and bulge where the roller touches the profile, of one state of the curve."""
-        state = kept_last(self.curve.state_at)
-        wanted = [
-            (lambda turn: np.abs(self.curve.pressure_angle(state(turn))), True),
-            (lambda turn: self._bulge(state(turn)), True),
-        ]
-        return extremes_over(wanted, *self._touching, samples=128)
-
-    def pressure_angle(self, k: Reals) -> Reals:
-        """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
-
-        tan delta = (lambda A - cos phi)/sin phi
-        """
-        return self.curve.pressure_angle(self.curve.state(k))
-
-    @cached_property
-    def min_curvature_radius(self) -> float:
-        """Minimum radius of the pitch curve where it bulges from the body and the roller touches it [mm].
-
-        Raises
-            NoSolution - where it touches nothing
-        Notes
-            In the transition zone the radius falls to zero at mid-swing whatever the design. Infinite where the
-            curve bulges nowhere outside it.
-        """
-        peak = self.tops[1].value
-        return 1.0 / peak if peak > 0.0 else math.inf
-
-    def bulge(self, k: Reals) -> Reals:
-        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
-        return self._bulge(self.curve.state(k))
-
-    def _bulge(self, state: CurveState) -> Reals:
-        curvature: Reals = self.sense / self.center_distance * self.curve.curvature(state)
-        return curvature
-
-    def points(self, k: Reals) -> CamPoints:
-        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
-
-        z = e^{i theta}(-1 + lambda e^{i phi}), tan delta = (lambda A - cos phi)/sin phi
-        R = |1 - lambda A e^{i phi}|^3/(1 - lambda A (1 + A) cos phi + lambda^2 A^3 - lambda phi'' sin phi)
-
-        Parameters
-            k : (N,) array - fractions of the stroke, 0 to 1
-        Returns
-            points : CamPoints
-        Raises
-            NoSolution - for k outside 0 to 1, or a profile that does not exist
-        Notes
-            The body lies inside an external and outside an internal profile. k = 1/2 is taken as the end of the
-            run-up. The profile points between the two parts of `contact` are cut away by the slot that the
-            roller needs at mid-swing. The curvature keeps a relative accuracy of about 1e-13 up to the cusp itself.
-        Example
-            >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
-            >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-            >>> points = WideSwingCam("twin-cam", law, math.radians(120), 1.0, 0.04).points(np.array([0.25]))
-            >>> points.profile.round(9).tolist()
-            [(-0.724642568+0.156427799j)]
-
-        Source
-            wide-swing dissertation, chapter 3 and (26); curvature: own derivation
-        """
-        self.require_profile()
-        state = self.curve.state(np.asarray(k, dtype=np.float64))
-        pitch = self.curve.pitch(state)
-        profile = pitch + self.sense * self.roller_radius / self.center_distance * self.curve.normal(state)
-        curvature, place = self.curve.curvature(state), self.center_distance
-        with np.errstate(divide="ignore"):
-            radius = self.center_distance / curvature
-        return CamPoints(
-            k=state.k,
-            cam_angle=state.theta,
-            polar_angle=state.theta - self.curve.correction(state),
-            pitch=place * _mirrored(pitch, self.sense),
-            profile=place * _mirrored(profile, self.sense),
-            pressure_angle=self.curve.pressure_angle(state),
-            curvature_radius=radius,
-        )
+        state = kept_last(self.state_at)
+        wanted = [(lambda turn: np.abs(state(turn).pressure_angle), True), (lambda turn: state(turn).bulge, True)]
+        return extremes_of_parts(wanted, self._touching, samples=128)
 
 
 def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
@@ -835,7 +937,8 @@ def _mirrored(w: Points, sense: int) -> Points:
     return result
 
 
-def _require_lengths(center_distance: float, roller_radius: float, rocker_radius: float | None) -> None:
+def require_lengths(center_distance: float, roller_radius: float, rocker_radius: float | None = None) -> None:
+    """Refuse lengths [mm] that are not positive."""
     lengths = {"centre distance": center_distance, "roller radius": roller_radius}
     if rocker_radius is not None:
         lengths["rocker radius"] = rocker_radius

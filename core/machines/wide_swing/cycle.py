@@ -55,7 +55,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class ClosedCam:
-    """Contour of a cam over one revolution, in lengths of mm and the frame of `PitchCurve`: mid-stroke on the -x axis.
+    """Contour of a cam over one revolution, in lengths of mm and the frame of `CurveState`: mid-stroke on the -x axis.
 
     z = e^{i theta}(-1 + lambda e^{i psi}) a, psi(theta): the law, +gamma/2, the law backwards, -gamma/2
 
@@ -142,23 +142,18 @@ class ClosedCam:
     def _driven(self, sector: int, view: MiddleView, share: Reals, t: Reals) -> CurveState:
         """The state in one of both strokes, of a view of the law at k - 1/2."""
         cam = self.cam
-        driven = cam.curve.state_of(view, share)
+        driven = cam.state_of(view, share)
         if sector == 0:
             return driven
         # the law backwards: velocity against, acceleration as in the law, over the other stroke's angle
         a = 1.0 - cam.sense * (cam.law.swing / self.other) * view.velocity
-        return replace(
-            driven,
-            theta=t - 0.5 * self.own,
-            a=a,
-            e=1.0 - cam.ratio * a,
-            second=cam.sense * cam.law.swing / self.other**2 * view.acceleration,
-        )
+        bend = cam.sense * cam.law.swing / self.other**2 * view.acceleration
+        return replace(driven, theta=t - 0.5 * self.own, a=a, e=1.0 - cam.ratio * a, bend=bend)
 
     def _resting(self, t: Reals, end: float) -> CurveState:
-        cam, ones = self.cam, np.ones_like(t)
-        still, still_e = cam.curve.state(np.array([end])), (1.0 - cam.ratio) * ones
-        return CurveState(end * ones, t - 0.5 * self.own, still.psi * ones, ones, still_e, still.s * ones, 0.0 * ones)
+        at, ones = self.cam.state(np.array([end])), np.ones_like(t)
+        theta = t - 0.5 * self.own
+        return replace(at, k=end * ones, theta=theta, psi=at.psi * ones, turning=ones, s=at.s * ones).resting()
 
     def _by_turn(self, sector: int, place: Reals) -> tuple[CurveState, Reals]:
         """The state, and the cam angle, where a place divides a stroke evenly by the angle of the law."""
@@ -166,7 +161,7 @@ class ClosedCam:
             return self.state(sector, place), place
         start, end, law = self.starts[sector], self.starts[sector + 1], self.cam.law
         sense = 1.0 if sector == 0 else -1.0
-        turn = sense * law.end_turn * np.clip(2.0 * (place - start) / (end - start) - 1.0, -1.0, 1.0)
+        turn = sense * law.turns[1] * np.clip(2.0 * (place - start) / (end - start) - 1.0, -1.0, 1.0)
         share = law.share_from_middle(turn)
         t = start + (0.5 + sense * share) * (end - start)
         return self._driven(sector, law.view_at(turn), share, t), t
@@ -180,7 +175,7 @@ class ClosedCam:
         return self._pitch(self.state(sector, t))
 
     def _pitch(self, state: CurveState) -> Points:
-        points: Points = self.cam.center_distance * self.cam.curve.pitch(state)
+        points: Points = self.cam.center_distance * state.pitch
         return points
 
     def contour(self, t: Reals) -> Points:
@@ -195,7 +190,7 @@ class ClosedCam:
     def _contour(self, sector: int, state: CurveState, t: Reals, pitch: Points) -> Points:
         cam = self.cam
         size = cam.roller_radius + (self._room(t) if sector == 2 else 0.0)
-        found = pitch + cam.sense * size * cam.curve.normal(state)
+        found = pitch + cam.sense * size * state.normal
         if sector:
             return np.asarray(found)
         start, end = self.slot
@@ -213,9 +208,9 @@ class ClosedCam:
     def _slot_ends(self) -> tuple[complex, float, float]:
         """Roller centre at mid-swing, and the directions from it to the ends of its slot, by way of the body [rad]."""
         cam = self.cam
-        state = cam.curve.state(np.array([*self.slot, 0.5]))
-        pitch = cam.center_distance * cam.curve.pitch(state)
-        ends = pitch[:2] + cam.sense * cam.roller_radius * cam.curve.normal(state)[:2]
+        state = cam.state(np.array([*self.slot, 0.5]))
+        pitch = cam.center_distance * state.pitch
+        ends = pitch[:2] + cam.sense * cam.roller_radius * state.normal[:2]
         middle = complex(pitch[2])
         into = -cam.sense * middle / abs(middle)
         first, last = (float(np.angle((end - middle) / into)) for end in ends)
@@ -267,12 +262,12 @@ class ClosedCam:
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """The joints at the start and end of its own stroke and of the other stroke, in the order of the turn."""
-        curve, size = self.cam.curve, self.cam.center_distance
+        size = self.cam.center_distance
         ends = [self.state(i, np.array(self.starts[i : i + 2])) for i in range(4)]
-        along = [curve.normal(state).tolist() for state in ends]
-        bends = [(curve.curvature(state) / size).tolist() for state in ends]
+        along = [state.normal.tolist() for state in ends]
+        bends = [(state.curvature / size).tolist() for state in ends]
         radii = [[1.0 / bend if bend else math.inf for bend in pair] for pair in bends]
-        starts = [abs(complex(curve.pitch(state)[0])) * size for state in ends]
+        starts = [abs(complex(state.pitch[0])) * size for state in ends]
         return tuple(
             Joint(self.starts[i], starts[i], cmath.phase(along[i][0] / along[i - 1][1]), radii[i - 1][1], radii[i][0])
             for i in range(4)
@@ -319,7 +314,7 @@ class ClosedCam:
 
         def each(place: Reals) -> tuple[Reals, Reals, Reals]:
             state, t = self._by_turn(2, place)
-            bend = np.maximum(0.0, cam.sense / cam.center_distance * cam.curve.curvature(state))
+            bend = np.maximum(0.0, state.bulge / cam.center_distance)
             with np.errstate(divide="ignore", invalid="ignore"):
                 worst = self._share(t) * bend / (1.0 - roller * bend)
             return bend, worst, np.abs(self._contour(2, state, t, self._pitch(state)))

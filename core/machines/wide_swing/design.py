@@ -58,7 +58,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
     from gearlink.core.machines.wide_swing.law import LegacyLaw, MarchedLaw
     from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam
-    from gearlink.core.machines.wide_swing.slider import SliderCam
     from gearlink.core.machines.wide_swing.spec import SecondShaft, SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.machines.wide_swing.strokes import AnyCam
     from gearlink.core.machines.wide_swing.torques import FlankImpact
@@ -544,6 +543,7 @@ def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extre
     """The maximum value over the parts of the stroke in which the roller touches the profile."""
     stop = 1e-3 if design.spec.drive is not None else 0.0
     parts = [(max(first, stop), min(last, 1.0 - stop)) for first, last in design.contact_of(design.cam)]
+    parts = list(design.cam.sides(*parts))
     found = extremes_of_parts([(curve, True)], parts, samples=256)
     return max((each for (each,) in found), key=lambda each: each.value)
 
@@ -559,9 +559,7 @@ def _speed_shares() -> Any:
 
 
 def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
-    from gearlink.core.machines.wide_swing.strokes import middle_of
-
-    touching = design.touches(cam, k) & (k != middle_of(cam))
+    touching = design.touches(cam, k) & (k != cam.middle)
     force = np.full_like(k, np.nan)
     force[touching] = design.unloading.contact_force(cam, k[touching], share[touching])
     return force
@@ -803,9 +801,7 @@ class Unloading:
             strokes, T that of the cam's own. With a slider the force reverses at mid-swing, the roller where the
             rocker is fastest: between the two the force is negative.
         """
-        from gearlink.core.machines.wide_swing.strokes import middle_of
-
-        torque = self.motion.torque(k) * np.where(k < middle_of(cam), 1.0, -1.0)
+        torque = self.motion.torque(k) * np.where(k < cam.middle, 1.0, -1.0)
         force: Reals = self._pressing(cam, speed_ratio, need) * torque / np.cos(cam.pressure_angle(k))
         return force
 
@@ -993,21 +989,23 @@ class WideSwingDesign(Design):
     @cached_property
     def oscillating_cam(self) -> OscillatingCam:
         """The cam on the rocker of a crank-rocker."""
-        from gearlink.core.machines.wide_swing.oscillating_cam import AimedLaw, OscillatingCam
+        from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, aimed_law
 
         section, motion, drive = self.section, self.motion, self.motion.drive
-        law = motion.plain_law if self.spec.slider is None else AimedLaw(motion.slider, drive)
+        law = motion.plain_law if self.spec.slider is None else aimed_law(motion.slider, drive)
         with at_key("drive"):
             return OscillatingCam(drive, law, section.center_distance, section.roller_radius)
 
     @cached_property
-    def slider_cam(self) -> SliderCam:
-        """The cam of a rocker that drives a slider."""
-        from gearlink.core.machines.wide_swing.slider import SliderCam
+    def slider_cam(self) -> WideSwingCam:
+        """The cam of a rocker that drives a slider, which passes the line of centres where it is fastest."""
+        from gearlink.core.machines.wide_swing.cam import WideSwingCam
+        from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
 
         section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
         with at_key("cycle_angle"):
-            return SliderCam(law, angle, section.center_distance, section.roller_radius)
+            aimed = AimedLaw(law, fastest_place(law))
+            return WideSwingCam("twin-cam", aimed, angle, section.center_distance, section.roller_radius)
 
     @cached_property
     def shafts(self) -> ParallelShafts:
@@ -1021,7 +1019,7 @@ class WideSwingDesign(Design):
         return cam_clearance(self)
 
     @property
-    def aimed_cam(self) -> SliderCam | OscillatingCam:
+    def aimed_cam(self) -> AnyCam:
         """The cam of a rocker with a slider, whose roller passes the line of centres beside mid-swing."""
         return self.slider_cam if self.spec.drive is None else self._aimed_with_slider
 
@@ -1504,7 +1502,6 @@ class WideSwingDesign(Design):
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
-        from gearlink.core.machines.wide_swing.strokes import is_external
         from gearlink.core.parts.cams.checks import HUB
 
         section, shaft = self.section, self.section.shaft_radius
@@ -1518,7 +1515,7 @@ class WideSwingDesign(Design):
             fix, recommended = _shaft_remedy(self), None
             if room <= 0.0:
                 status = "fail"
-            elif is_external(cam) and bottom < HUB * shaft * (1.0 - _ROUNDING):
+            elif cam.sense > 0 and bottom < HUB * shaft * (1.0 - _ROUNDING):
                 status, recommended = "warn", (HUB - 1.0) * shaft
                 if bottom >= HUB * THINNEST * shaft:
                     fix = f"take a shaft_radius of at most {safely_below(bottom / HUB)} mm"

@@ -136,6 +136,10 @@ class ElasticLaw:
 
     device: Device
     swing: float
+    place, offset, acceleration, symmetric = 0.5, 0.0, 0.0, True
+    """Of mid-swing, about which both half strokes are mirror images."""
+    turns = -0.5 * math.pi, 0.5 * math.pi
+    """Pendulum angle u at the start and the end of the stroke [rad]."""
 
     def __post_init__(self) -> None:
         require_swing(self.swing)
@@ -311,11 +315,6 @@ class ElasticLaw:
         return MiddleView(2.0 * half, velocity, deficit, -self._acceleration(sine, cosine))
 
     # The same by the pendulum angle u, 0 at mid-swing: no place has to be solved for
-
-    @property
-    def end_turn(self) -> float:
-        """u at the end of the stroke; at its start it is negative [rad]."""
-        return 0.5 * math.pi
 
     def view_at(self, turn: Reals) -> MiddleView:
         """`middle_view` at pendulum angles."""

@@ -24,11 +24,10 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing import bodies
-from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
-from gearlink.core.machines.wide_swing.strokes import AnyCam, Parts, Stroke, middle_of, path, strokes_of
+from gearlink.core.machines.wide_swing.strokes import AnyCam, Parts, Stroke, strokes_of
 from gearlink.core.mechanism.dynamics import Force, Mass, Torque
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
@@ -109,7 +108,7 @@ class SwingStroke:
     def way(self, k: Reals) -> Reals:
         """Way of the roller's centre over the cam, per input angle [mm]."""
         place, rate = self.at.profile(k)
-        return np.asarray(self.cam.center_distance * path(self.cam, place).way * np.abs(rate))
+        return np.asarray(self.cam.center_distance * np.abs(self.cam.state(place).gradient) * np.abs(rate))
 
     def roller_speed(self, k: Reals) -> Reals:
         """Speed of the roller about its own axis [rad/s], positive in the sense of the working stroke.
@@ -118,10 +117,9 @@ class SwingStroke:
             A cam turns against the roller on its external profile, with it on its internal one.
         """
         place, rate = self.at.profile(k)
-        at = path(self.cam, place)
-        rolling = self.cam.center_distance / self.cam.roller_radius * at.way
-        sense = self.cam.sense if isinstance(self.cam, WideSwingCam) else 1.0
-        return np.asarray((rolling - sense * at.turning) * rate * self.loads.speed)
+        at = self.cam.state(place)
+        rolling = self.cam.center_distance / self.cam.roller_radius * np.abs(at.gradient)
+        return np.asarray((rolling - self.cam.sense * at.turning) * rate * self.loads.speed)
 
     def bearing_speed(self, k: Reals) -> Reals:
         """Speed of the roller on its pin of the rocker [rad/s]."""
@@ -206,7 +204,7 @@ class SwingStroke:
     def columns(self, k: Reals) -> dict[str, tuple[Any, str]]:
         """Force, pressure, radius and speeds; not a number where the roller touches nothing."""
         place = self.at.profile(k)[0]
-        touching = self.loads.design.touches(self.cam, place) & (place != middle_of(self.cam))
+        touching = self.loads.design.touches(self.cam, place) & (place != self.cam.middle)
         at = k[touching]
         none = np.full(at.shape, np.nan)
         locked = self.loads.locked
@@ -312,9 +310,8 @@ class SwingRest:
     def run(self, exponent: float) -> Reals:
         """int F^p |n| dt and int |n| dt per revolution of the input [N^p rad, rad]; the rocker stands still."""
         cam = self.stroke.cam
-        assert isinstance(cam, WideSwingCam), "a cycle has cams that turn evenly"
-        at = path(cam, np.ones(1), resting=True)
-        rate = abs(float(cam.center_distance / cam.roller_radius * at.way[0] - cam.sense * at.turning[0]))
+        way = float(np.abs(cam.state(np.ones(1)).resting().gradient[0]))
+        rate = abs(cam.center_distance / cam.roller_radius * way - cam.sense)
         breaks = [angle - self.start for angle in self.stroke.loads.machine.breaks]
         inside = [angle for angle in breaks if 0.0 < angle < self.width]
         panels = Panels.over(self.width, inside)
@@ -330,7 +327,6 @@ class SwingRest:
     def relative_radius(self) -> float:
         """R = r_g (1 -+ r_g/rho) of roller and arc [mm], + of an internal profile; rho the pitch radius of the arc."""
         cam = self.stroke.cam
-        assert isinstance(cam, WideSwingCam), "a cycle has cams that turn evenly"
         return cam.roller_radius * (1.0 - cam.sense * cam.roller_radius / cam.end_radius)
 
     @cached_property

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.strokes import Stroke, middle_of, strokes_of
+from gearlink.core.machines.wide_swing.strokes import Stroke, strokes_of
 from gearlink.core.mechanism.closures import dyad, slider
 from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.dual import Shift, longer
@@ -120,7 +120,7 @@ class _WithCams:
         ends = [
             stroke.start + share * stroke.width
             for stroke in self.strokes
-            for share in (0.0, stroke.at_profile(middle_of(stroke.cam)), 1.0)
+            for share in (0.0, stroke.at_profile(stroke.cam.middle), 1.0)
         ]
         return tuple(sorted(angle for angle in ends if angle > 0.0))
 
@@ -239,7 +239,7 @@ def with_shafts(
     links: dict[str, Link] = {}
     joints: list[Connection] = []
     for name, pin, way, stroke in zip(("cam", "return_cam"), ("O", "O_return"), (sense, -sense), strokes, strict=False):
-        axis, middle = fixed(stroke.shaft, phi, order=order), stroke.start + middle_of(stroke.cam) * stroke.width
+        axis, middle = fixed(stroke.shaft, phi, order=order), stroke.start + stroke.cam.middle * stroke.width
         links[name] = Link(axis, steady(phi, way, cmath.phase(stroke.toward) - way * middle, order=order))
         joints.append(Pin(pin, FRAME, name, axis.value))
     return links, joints

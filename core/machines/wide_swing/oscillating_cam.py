@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -20,14 +20,14 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing.cam import (
     LEAST_SPEED_RATIO,
     SMALLEST,
-    CamPoints,
+    CurveState,
+    StrokeCam,
     StrokeLaw,
     covered,
-    fitting_roller,
+    require_lengths,
     too_small_swing,
 )
-from gearlink.core.machines.wide_swing.law import MiddleView
-from gearlink.core.machines.wide_swing.slider import SliderLaw
+from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
@@ -137,116 +137,93 @@ _NOISE = 1e-15
 """How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Step:
-    """Where the roller stands on the cam and how it goes on, at fractions of the stroke.
-
-    Fields
-        view : MiddleView - of the rocker's motion
-        chi : three (N,) arrays [rad] - cam angle from mid-swing and its derivatives with respect to k
-        arm : (N,) complex array - roller centre from the cam axis
-        first, second : (N,) complex arrays - its derivatives with respect to k in the cam, turned back with the cam
-        along : (N,) complex array - unit vector of its way, at a stop the limit of the way there
-    """
-
-    view: MiddleView
-    chi: tuple[Reals, ...]
-    arm: Points
-    first: Points
-    second: Points
-    along: Points
-
-
 _ASIDE = 0.2
 """Part of the stroke beside mid-swing in which the roller may pass the line of centres."""
-_JERK = 1e-4  # of the stroke, for a difference of accelerations
 
 
-@dataclass(frozen=True)
-class AimedLaw:
-    """Law of a rocker with a slider, seen from k*, where its roller passes the line of centres of a cam that swings.
+def aimed_law(law: SliderLaw, drive: CrankRockerDrive) -> AimedLaw:
+    """The law seen from k*, nearest to mid-swing, where d phi/d chi has its extremum and the pressure angle is 0.
 
-    phi'' chi' = phi' chi'' at k*, nearest to mid-swing: d phi/d chi has its extremum, and the pressure angle is 0
+    phi'' chi' = phi' chi'' at k*
 
-    Parameters
-        law : SliderLaw
-        drive : CrankRockerDrive
     Notes
         Without such a place within 0.2 of the stroke of mid-swing, k* is that of mid-swing.
     """
+    middle = law.middle_place
 
-    law: SliderLaw
-    drive: CrankRockerDrive
-
-    @property
-    def swing(self) -> float:
-        """gamma [rad]."""
-        return self.law.swing
-
-    @cached_property
-    def place(self) -> float:
-        """k*."""
-        middle = self.law.middle_place
-        k = np.linspace(max(middle - _ASIDE, 1e-3), min(middle + _ASIDE, 1.0 - 1e-3), 161)
-        bend = self._bend(k)
-        turns = np.flatnonzero(bend[:-1] * bend[1:] <= 0.0)
-        found = [
-            bracketed_root(lambda at: float(self._bend(np.array([at]))[0]), float(k[i]), float(k[i + 1])) for i in turns
-        ]
-        return min(found, key=lambda at: abs(at - middle), default=middle)
-
-    def _bend(self, k: Reals) -> Reals:
-        """c chi' - b chi''."""
-        _, b, c = self.law.invariants(k)
-        _, first, second = self.drive.motion(k)
+    def bend(k: Reals) -> Reals:
+        _, b, c = law.invariants(k)
+        _, first, second = drive.motion(k)
         return np.asarray(c * first - b * second)
 
-    @cached_property
-    def _at(self) -> tuple[float, float, float]:
-        return tuple(float(x[0]) for x in self.law.invariants(np.array([self.place])))  # type: ignore[return-value]
+    k = np.linspace(max(middle - _ASIDE, 1e-3), min(middle + _ASIDE, 1.0 - 1e-3), 161)
+    values = bend(k)
+    turns = np.flatnonzero(values[:-1] * values[1:] <= 0.0)
+    found = [bracketed_root(lambda at: float(bend(np.array([at]))[0]), float(k[i]), float(k[i + 1])) for i in turns]
+    return AimedLaw(law, min(found, key=lambda at: abs(at - middle), default=middle), near=0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class StoppingState(CurveState):
+    """That of a cam on a crank-rocker, by the limits at k* and where cam and rocker stop together.
+
+    Fields
+        cam : OscillatingCam - whose theta is counted from k = 1/2
+        seconds : two (N,) arrays - chi'', psi''
+    """
+
+    cam: OscillatingCam
+    seconds: tuple[Reals, Reals]
 
     @property
-    def offset(self) -> float:
-        """phi_0 = phi(k*) [rad]."""
-        return self.swing * (self._at[0] - 0.5)
+    def heading(self) -> Points:
+        """The gradient, at a stop its derivative: before the stop that points back."""
+        k, middle, (chi, psi) = self.k, self.cam.middle, self.seconds
+        near = np.abs(k[..., None] - np.array([0.0, middle, 1.0])).min(axis=-1) <= _AT_STOP
+        if not near.any():
+            return self.gradient
+        bent = (chi + psi) + 1j * self.a * (self.a - self.turning)
+        onward = chi - self.ratio * bent * np.exp(1j * self.psi)
+        begins = (k < 0.5 * middle) | ((k > middle) & (k < 0.5 + 0.5 * middle))
+        return np.where(near, np.where(begins, onward, -onward), self.gradient)
 
     @property
-    def velocity_peak(self) -> float:
-        """b at k*; not the peak, where the cam does not turn evenly."""
-        return self._at[1]
+    def curvature(self) -> Reals:
+        """Infinite at the stops, on the side to which the curve bends there."""
+        found = super().curvature
+        for stop, (bend, *_) in self.cam.stops.items():
+            found[self.k == stop] = math.copysign(math.inf, bend)
+        return found
 
     @property
-    def acceleration(self) -> float:
-        """c at k*."""
-        return self._at[2]
+    def pressure_angle(self) -> Reals:
+        """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place.
 
-    @cached_property
-    def middle_jerk(self) -> float:
-        """dc/dk at k*."""
-        before, after = self.law.invariants(np.array([self.place - _JERK, self.place + _JERK]))[2]
-        return float(after - before) / (2.0 * _JERK)
-
-    def middle_view(self, k: Reals) -> MiddleView:
-        """The motion seen from k*, its angle counted from there."""
-        a, b, c = self.law.invariants(np.asarray(k, dtype=np.float64))
-        return MiddleView(self.swing * (a - 0.5) - self.offset, b, self.velocity_peak - b, c)
+        Notes
+            So it does next to a standstill, where the ratio of the velocities has no right digits: off by 1e-8 there.
+        """
+        end, found = np.minimum(self.k, 1.0 - self.k) <= _AT_STOP, super().pressure_angle
+        if end.any():
+            chi, psi = self.seconds
+            standing = replace(self, turning=chi, e=(1.0 - self.ratio) * chi - self.ratio * psi)
+            found = np.where(end, super(StoppingState, standing).pressure_angle, found)
+        return np.where(self.k == self.cam.middle, self.cam.middle_pressure_angle, found)
 
 
 @dataclass(frozen=True)
-class OscillatingCam:
+class OscillatingCam(StrokeCam):
     """External cam on the rocker of a crank-rocker, guiding a wide-swing rocker.
 
     z = e^{i chi}(-1 + lambda e^{i (phi - phi_0)}) a, lambda = r/a = 1/(1 + gamma b/|chi'|) at k*, phi_0 = phi(k*)
 
     Parameters
         drive : CrankRockerDrive
-        law : StrokeLaw or AimedLaw - law of motion of the wide-swing rocker; the roller passes the line of centres
-            at mid-swing, k* = 1/2, or with a slider where d phi/d chi has its extremum
+        law : StrokeLaw - law of motion of the wide-swing rocker; with a slider that of `aimed_law`
         center_distance, roller_radius : float [mm] - a, r_p
     Raises
         NoSolution - for lengths that are not positive
     Notes
-        The pitch curve has cusps at mid-swing and, because cam and rocker stop together, at both ends, where the
+        The pitch curve has cusps at k* and, because cam and rocker stop together, at both ends, where the
         third derivative of the cam's motion leaves its curvature without bound.
     Example
         >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -261,29 +238,18 @@ class OscillatingCam:
     """
 
     drive: CrankRockerDrive
-    law: StrokeLaw | AimedLaw
+    law: StrokeLaw
     center_distance: float
     roller_radius: float
+    sense = 1
 
     def __post_init__(self) -> None:
-        for name, value in (("centre distance", self.center_distance), ("roller radius", self.roller_radius)):
-            if not 0.0 < value < math.inf:
-                raise NoSolution(f"{name}: {value:.4g} mm (limit > 0)")
+        require_lengths(self.center_distance, self.roller_radius)
 
     @property
     def cycle_angle(self) -> float:
         """Crank angle of one stroke [rad]."""
         return self.drive.crank_span
-
-    @property
-    def middle(self) -> float:
-        """k*, fraction of the stroke at which the roller is on the line of centres."""
-        return self.law.place if isinstance(self.law, AimedLaw) else 0.5
-
-    @property
-    def arm_offset(self) -> float:
-        """phi_0, rocker angle from mid-swing at which the roller is on the line of centres [rad]."""
-        return self.law.offset if isinstance(self.law, AimedLaw) else 0.0
 
     @cached_property
     def _middle(self) -> tuple[float, float]:
@@ -311,25 +277,21 @@ class OscillatingCam:
         tan delta = [lambda phi'' - (1 - lambda) chi'']/(chi' phi'): zero where d phi/d chi has its extremum
         """
         first, second = self._middle
-        own = self.law.swing * self.law.acceleration if isinstance(self.law, AimedLaw) else 0.0
-        across = self.ratio * own - (1.0 - self.ratio) * second
+        across = self.ratio * self.law.swing * self.law.acceleration - (1.0 - self.ratio) * second
         return math.atan(across / (first * self.law.swing * self.law.velocity_peak))
 
     @property
     def loop_margin(self) -> float:
         """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
-        return self._stop(self.middle)[0]
+        return self.stops[self.middle][0]
 
     @cached_property
-    def _stops(self) -> dict[float, tuple[float, float]]:
+    def stops(self) -> dict[float, tuple[float, float, complex]]:
+        """Im(conj(z2) z3)/|z2|^2, positive for a bulge, |z2| and z at k* and both ends, where z'(k) = 0."""
         return {k: self._stop_at(k) for k in (0.0, self.middle, 1.0)}
 
-    def _stop(self, k: float) -> tuple[float, float]:
-        """Im(conj(z2) z3)/|z2|^2, positive for a bulge, and |z2| at mid-swing or an end, where z'(k) = 0."""
-        return self._stops[k]
-
-    def _stop_at(self, k: float) -> tuple[float, float]:
-        _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([k]), 3))
+    def _stop_at(self, k: float) -> tuple[float, float, complex]:
+        chi, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([k]), 3))
         swing, r = self.law.swing, self.ratio
         view = self.law.middle_view(np.array([k]))
         phi1, phi2 = swing * float(view.velocity[0]), swing * float(view.acceleration[0])
@@ -341,7 +303,7 @@ class OscillatingCam:
         second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
         third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
         third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
-        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second)
+        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second), cmath.exp(1j * chi) * f
 
     @property
     def transition_zone_estimate(self) -> float:
@@ -353,11 +315,11 @@ class OscillatingCam:
             NoSolution - where the pitch curve has a loop
         """
         self.require_profile()
-        return self._left(self._stop(self.middle))
+        return self._left(self.middle)
 
-    def _left(self, stop: tuple[float, float]) -> float:
+    def _left(self, stop: float) -> float:
         """Part of the stroke over which the roller leaves a stop, to leading order."""
-        bend, second = stop
+        bend, second, _ = self.stops[stop]
         return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
 
     @cached_property
@@ -368,7 +330,7 @@ class OscillatingCam:
             NoSolution - for a loop, or where the roller, standing at a stop, covers the profile of half the stroke
         Notes
             Cam and rocker stop together at both ends, so the pitch curve begins and ends with radius 0. Where it
-            bulges there, the standing roller covers the first points of the profile as its slot does at mid-swing.
+            bulges there, the standing roller covers the first points of the profile as its slot does at k*.
         """
         self.require_profile()
         start, end = self._cover(0.0, 1.0), self._cover(1.0, -1.0)
@@ -376,77 +338,54 @@ class OscillatingCam:
 
     def _cover(self, stop: float, side: float) -> float:
         """How far from a stop, on one side of it, the roller that stands there covers the profile."""
-        shape = self._stop(stop)
-        if shape[0] <= 0.0:
+        if self.stops[stop][0] <= 0.0:
             return stop
-        estimate = self._left(shape)
+        estimate = self._left(stop)
         if estimate < SMALLEST:
             return stop + side * estimate
         other = self.middle if stop in (0.0, 1.0) else 0.5 + 0.5 * side
         far = _FAR * abs(other - stop)
         return stop + side * covered(
-            lambda t: self._step(stop + side * t, stop), self.roller_radius, far, estimate, _NOISE
+            lambda t: self.step(stop + side * t, stop), self.roller_radius, far, estimate, _NOISE
         )
 
-    def _step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:
+    def state(self, k: Reals) -> StoppingState:
+        """Cam and roller at fractions k of the stroke."""
+        view, span, ratio = self.law.middle_view(k), self.cycle_angle, self.ratio
+        chi, *of_cam = self.drive.motion(k)
+        first, second = of_cam[0] / span, of_cam[1] / span**2
+        speed, bend = self.law.swing / span * view.velocity, self.law.swing / span**2 * view.acceleration
+        return StoppingState(
+            k=k,
+            theta=chi,
+            psi=view.angle,
+            turning=first,
+            a=first + speed,
+            e=(1.0 - ratio) * first - ratio * speed,
+            s=2.0 * np.sin(0.5 * view.angle) ** 2,
+            bend=bend * first - speed * second,
+            sense=self.sense,
+            ratio=ratio,
+            cam=self,
+            seconds=(second, bend),
+        )
+
+    def step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:
         """Lengths of the pitch point's steps from a stop, and their parts against the profile's normal [mm]."""
-        points = self.points(np.append(k, stop))
-        step = points.pitch[:-1] - points.pitch[-1]
+        state, size = self.state(k), self.center_distance
+        step = state.pitch - self.stops[stop][2]
         near = np.abs(k - stop) <= _SHORT  # of two places nearly alike few digits would be left
         if near.any():
             step[near] = self._short_step(k[near], stop)
-        normal = (points.profile - points.pitch)[:-1] / self.roller_radius
-        return np.abs(step), -(step * np.conj(normal)).real
+        return size * np.abs(step), -size * (step * np.conj(state.normal)).real
 
     def _short_step(self, k: Reals, stop: float) -> Points:
-        """The steps [mm] as integrals of the velocity, whose digits are right down to the stop."""
+        """The steps as integrals of the velocity, whose digits are right down to the stop."""
         nodes, weights = gauss_legendre(12)
         half = 0.5 * (k - stop)
-        step = self.step((stop + half[:, None] * (1.0 + nodes)).ravel())
-        velocity = (np.exp(1j * step.chi[0]) * step.first).reshape(k.size, nodes.size)
-        return np.asarray(self.center_distance * half * (velocity @ weights))
-
-    @cached_property
-    def transition_zone(self) -> float:
-        """Part of the stroke beside mid-swing, on its wider side, where the roller has left the profile in its slot.
-
-        Raises
-            NoSolution - where the pitch curve has a loop
-        Notes
-            1/2 where the roller covers the profile of half the stroke.
-        """
-        self.require_profile()
-        try:
-            (_, before), (after, _) = self.contact
-        except NoSolution:
-            return 0.5
-        return max(self.middle - before, after - self.middle)
-
-    def largest_roller(self, zone: float) -> float:
-        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        lengths, depths = self._step(np.array([self.middle - zone, self.middle + zone]), self.middle)
-        return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
-
-    @property
-    def middle_radius(self) -> float:
-        """Pitch radius at mid-swing, a - r [mm]."""
-        return (1.0 - self.ratio) * self.center_distance
-
-    @cached_property
-    def end_radius(self) -> float:
-        """Pitch radius at the ends of the stroke, with a slider at the farther one [mm]."""
-        half = 0.5 * self.law.swing + abs(self.arm_offset)  # the farther end
-        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(half), self.ratio * math.sin(half))
-
-    @property
-    def min_radius(self) -> float:
-        """Minimum pitch radius [mm]."""
-        return min(self.middle_radius, self.end_radius)
-
-    @property
-    def max_radius(self) -> float:
-        """Largest pitch radius [mm]."""
-        return max(self.middle_radius, self.end_radius)
+        state = self.state((stop + half[:, None] * (1.0 + nodes)).ravel())
+        velocity = (-1j * np.exp(1j * state.theta) * state.gradient).reshape(k.size, nodes.size)
+        return np.asarray(self.cycle_angle * half * (velocity @ weights))
 
     @cached_property
     def max_pressure_angle(self) -> float:
@@ -469,31 +408,15 @@ class OscillatingCam:
         Raises
             NoSolution - for a pitch curve with a loop
         """
-        return self.points(k).pressure_angle
+        self.require_profile()
+        return super().pressure_angle(k)
 
     @cached_property
-    def min_curvature_radius(self) -> float:
-        """Minimum radius of the pitch curve where it bulges from the body and the roller touches it [mm].
-
-        Raises
-            NoSolution - for a loop, or where the roller touches nothing
-        Notes
-            Outside `contact` the radius falls to zero at mid-swing, and at an end that bulges, whatever the design.
-            At an end that is hollow nothing is to be found.
-        """
+    def tops(self) -> list[list[Extreme]]:
+        """Maximum bulge where the roller touches the profile; at an end that is hollow nothing is to be found."""
         (first, start), (end, last) = self.contact
         parts = ((max(first, _STOP), start), (end, min(last, 1.0 - _STOP)))
-        peak = max(found[0].value for found in extremes_of_parts([(self.bulge, True)], parts, samples=128))
-        return 1.0 / peak if peak > 0.0 else math.inf
-
-    def bulge(self, k: Reals) -> Reals:
-        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
-        radius = self.points(k).curvature_radius
-        curvature = np.full_like(radius, math.inf)
-        np.divide(1.0, radius, out=curvature, where=radius != 0.0)
-        for end in (0.0, 1.0):  # infinite as it is in the middle, but towards a hollow where the curve leaves it so
-            curvature[k == end] *= math.copysign(1.0, self._stop(end)[0])
-        return curvature
+        return extremes_of_parts([(lambda k: self.state(k).bulge, True)], parts, samples=128)
 
     def require_profile(self) -> None:
         """Refuse a pitch curve with a loop.
@@ -506,83 +429,6 @@ class OscillatingCam:
                 (f"the pitch curve has a loop at mid-swing (measure {self.loop_margin:.4g}, must be above 0)"),
                 fix="put mid-swing nearer to the cam's largest speed by changing the link lengths",
             )
-
-    def points(self, k: Reals) -> CamPoints:
-        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
-
-        tan delta = [lambda (chi' + phi') - chi' cos phi]/(chi' sin phi)
-
-        Parameters
-            k : (N,) array - fractions of the stroke, 0 to 1
-        Returns
-            points : CamPoints - cam_angle is chi, from mid-swing
-        Raises
-            NoSolution - for k outside 0 to 1, or a pitch curve with a loop at mid-swing
-        Notes
-            Curvature by the parametric formula; at k = 0, k* and 1 its radius is zero.
-        """
-        self.require_profile()
-        step = self.step(k)
-        (chi, chi1, chi2), view, first, second = step.chi, step.view, step.first, step.second
-        phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
-        turn: Points = np.exp(1j * chi)
-        pitch, along = turn * step.arm, turn * step.along
-        stop = (k == 0.0) | (k == self.middle) | (k == 1.0)
-        size = np.where(stop, 1.0, np.abs(first))
-        bend = np.where(stop, math.inf, (np.conj(first) * second).imag / size**3)
-        profile = pitch + self.roller_radius / self.center_distance * 1j * along
-        with np.errstate(divide="ignore"):
-            radius = self.center_distance / bend
-        return CamPoints(
-            k=k,
-            cam_angle=chi,
-            polar_angle=np.angle(-pitch),
-            pitch=self.center_distance * pitch,
-            profile=self.center_distance * profile,
-            pressure_angle=self._pressure_angle(view.angle, (chi1, chi2), (phi1, phi2), k),
-            curvature_radius=radius,
-        )
-
-    def step(self, k: Reals) -> Step:
-        """The roller's centre and its way over the cam, in centre distances and in the frame of the line of centres.
-
-        Parameters
-            k : (N,) array - fractions of the stroke, 0 to 1
-        """
-        view = self.law.middle_view(k)
-        chi, chi1, chi2 = self.drive.motion(k)
-        phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
-        reach: Points = self.ratio * np.exp(1j * view.angle)
-        arm = reach - 1.0
-        first = 1j * (chi1 * arm + phi1 * reach)
-        second = 1j * (chi2 * arm + phi2 * reach) - chi1**2 * arm - phi1 * reach * (phi1 + 2.0 * chi1)
-        stops = np.array([0.0, self.middle, 1.0])
-        near = np.abs(k[..., None] - stops).min(axis=-1) <= _AT_STOP
-        # where the curve stops its direction is that of the second derivative: before the stop it points back
-        along: Points = np.where(
-            near,
-            np.where((k < 0.5 * self.middle) | ((k > self.middle) & (k < 0.5 + 0.5 * self.middle)), second, -second),
-            first,
-        )
-        return Step(view, (chi, chi1, chi2), arm, first, second, along / np.abs(along))
-
-    def _pressure_angle(
-        self,
-        phi: Reals,
-        chi: tuple[Reals, Reals],
-        rate: tuple[Reals, Reals],
-        k: Reals,
-    ) -> Reals:
-        """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place.
-
-        Notes
-            So it does next to a standstill, where the ratio of the velocities has no right digits: off by 1e-8 there.
-        """
-        end = np.minimum(k, 1.0 - k) <= _AT_STOP
-        cam, rocker = np.where(end, chi[1], chi[0]), np.where(end, rate[1], rate[0])
-        across, along = self.ratio * (cam + rocker) - cam * np.cos(phi), cam * np.sin(phi)
-        side = np.where(along < 0.0, -1.0, 1.0)
-        return np.where(k == self.middle, self.middle_pressure_angle, np.arctan2(across * side, np.abs(along)))
 
 
 # The way home of an oscillating cam: its crank goes on evenly, and the profile leads the rocker back

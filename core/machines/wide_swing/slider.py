@@ -1,11 +1,11 @@
-"""A slider that the rocker of a wide swing moves: its law of motion, and the cam that it asks for.
+"""A slider that the rocker of a wide swing moves: its law of motion, and that law as a cam sees it.
 
 The unloading device swings rocker and slider together; the reduced inertia changes with the swing and with it
 the law of motion loses its symmetry about mid-swing.
 
 The roller's arm is set so that the roller passes the line of centres where the rocker is fastest, at k*: then, as with
-a symmetric law, it passes the velocity pole there without pressure angle, and the pitch curve has its cusp. Run-up and
-run-out are each half of a symmetric stroke of their own, with the same rocker radius.
+a symmetric law, it passes the velocity pole there without pressure angle, and the pitch curve has its cusp. The return
+stroke runs the same law backwards: the same cam, turning the other way, serves it.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,10 +22,9 @@ from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike
-from gearlink.core.machines.wide_swing.cam import CamPoints, WideSwingCam
 from gearlink.core.machines.wide_swing.device import Device, DeviceGeometry
 from gearlink.core.machines.wide_swing.law import ElasticLaw, Kept, MiddleView, kept_for
-from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
@@ -444,7 +444,7 @@ class SliderLaw:
         return clock.integral(np.where(np.cos(v) < 0.0, clock.span - z, z))
 
 
-# External cam of a wide-swing rocker that drives a slider: a law without symmetry, as two half strokes
+# The law without symmetry, as a cam sees it
 
 
 _NEAR = 0.15
@@ -453,303 +453,136 @@ _STEP = 1e-4  # of the stroke, for the jerk at k*, which only starts a search
 
 
 @dataclass(frozen=True)
-class HalfLaw:
-    """Run-up or run-out of a law without symmetry, as half of a symmetric one; a law of motion for `WideSwingCam`.
+class AimedLaw:
+    """Law of a rocker with a slider, seen from k*, where its roller passes the line of centres of its cam.
 
     Parameters
         law : SliderLaw
-        place : float - k*, where the rocker is fastest
-        late : bool - the run-out, taken backwards in time
+        place : float - k*
+        near : float [rad] - how far beside it times and B - b are integrated; 0 for a cam that does not turn evenly,
+            which needs none
     """
 
     law: SliderLaw
     place: float
-    late: bool
+    near: float = _NEAR
+    symmetric = False
 
     @property
-    def span(self) -> float:
-        """Fractions of the real stroke in one of this law's: 2 k* or 2 (1 - k*)."""
-        return 2.0 * ((1.0 - self.place) if self.late else self.place)
-
-    @property
-    def _side(self) -> float:
-        return -1.0 if self.late else 1.0
-
-    @cached_property
-    def end_turn(self) -> float:
-        """Angle of the law from k* to its end of the stroke [rad]."""
-        return math.pi - self.law.fastest_turn if self.late else self.law.fastest_turn
-
-    def _turn_of(self, real: Reals) -> Reals:
-        """Angle v from its end of the stroke at fractions of the real one."""
-        sine, cosine = self.law.pendulum(real)
-        return np.arctan2(cosine, self._side * sine)
-
-    @cached_property
-    def _fastest_angle(self) -> float:
-        """Rocker angle from mid-swing at k* [rad]."""
-        sine, cosine = self._side * np.cos([self.end_turn]), np.sin([self.end_turn])
-        return float(self.law.rates_at(sine, cosine)[0][0])
-
-    @cached_property
-    def fastest(self) -> float:
-        """Displacement invariant at k*."""
-        return 0.5 + self._fastest_angle / self.law.swing
-
-    @cached_property
     def swing(self) -> float:
-        """Twice the rocker's angle from k* to its end of the stroke [rad]."""
-        return 2.0 * self.law.swing * ((1.0 - self.fastest) if self.late else self.fastest)
+        """gamma [rad]."""
+        return self.law.swing
+
+    @cached_property
+    def _there(self) -> tuple[Reals, Reals]:
+        """sin u and cos u at k*."""
+        return self.law.pendulum(np.array([self.place]))
+
+    @cached_property
+    def turns(self) -> tuple[float, float]:
+        """Angle of the law at the start and the end of the stroke, from k* [rad]."""
+        (sine,), (cosine,) = self._there
+        return -math.atan2(cosine, sine), math.atan2(cosine, -sine)
+
+    @cached_property
+    def _at(self) -> tuple[float, float, float]:
+        """Rocker angle from mid-swing [rad], b and c at k*."""
+        return tuple(float(x[0]) for x in self.law.rates_at(*self._there))  # type: ignore[return-value]
 
     @property
-    def _scale(self) -> float:
-        return self.law.swing / self.swing
+    def offset(self) -> float:
+        """phi_0 = phi(k*) [rad]."""
+        return self._at[0]
 
     @property
     def velocity_peak(self) -> float:
-        """B of this half."""
-        return self.law.velocity_peak * self.span * self._scale
+        """b at k*; not the peak, where the cam does not turn evenly."""
+        return self._at[1]
+
+    @property
+    def acceleration(self) -> float:
+        """c at k*."""
+        return self._at[2]
 
     @cached_property
     def middle_jerk(self) -> float:
-        """dc/dk at k* of this half, negative."""
-        places = np.array([self.place - _STEP, self.place + _STEP])
-        before, after = (float(c) for c in self.law.invariants(places, 2)[2])
-        return (after - before) / (2.0 * _STEP) * self.span**3 * self._scale
+        """dc/dk at k*."""
+        before, after = self.law.invariants(np.array([self.place - _STEP, self.place + _STEP]))[2]
+        return float(after - before) / (2.0 * _STEP)
 
     def middle_view(self, k: Reals) -> MiddleView:
-        """The motion seen from k*, over fractions of this half's symmetric stroke.
+        """The motion seen from k*, its angle counted from there.
 
         Notes
             B - b is the integral of the acceleration, whose error is some ulp of its peak: beside k* the deficit keeps
-            1e-15/|k - 1/2| of itself.
+            1e-15/|k - k*| of itself.
         """
-        k = np.asarray(k, dtype=np.float64)
-        folded = np.where(k > 0.5, 1.0 - k, k) * self.span
-        v = self._turn_of(1.0 - folded if self.late else folded)
-        return self._view(np.where(k == 0.5, self.end_turn, np.minimum(v, self.end_turn)), k > 0.5)
+        sine, cosine = self.law.pendulum(np.asarray(k, dtype=np.float64))
+        late = k > self.place
+        behind = self.turns[1] - np.arctan2(cosine, -sine)
+        before = self.turns[0] + np.arctan2(cosine, sine)
+        turn = np.where(late, np.maximum(behind, 0.0), np.where(k < self.place, np.minimum(before, 0.0), 0.0))
+        return self._view(sine, cosine, turn)
 
     def view_at(self, turn: Reals) -> MiddleView:
         """The same at angles of the law from k*, negative before it."""
-        return self._view(self.end_turn - np.abs(turn), turn > 0.0)
+        late = turn > 0.0
+        v = np.where(late, self.turns[1], -self.turns[0]) - np.abs(turn)
+        return self._view(np.where(late, -1.0, 1.0) * np.cos(v), np.sin(v), turn)
 
-    def _view(self, v: Reals, second: Mask) -> MiddleView:
-        angle, b, c = self.law.rates_at(self._side * np.cos(v), np.sin(v))
-        sign = np.where(second, -self._side, self._side)
+    def _view(self, sine: Reals, cosine: Reals, turn: Reals) -> MiddleView:
+        angle, b, c = self.law.rates_at(sine, cosine)
+        backwards = partial(self._integrate, lambda sine, cosine: -self.law.rates_at(sine, cosine)[2], turn)
         return MiddleView(
-            sign * (angle - self._fastest_angle),
-            self.span * self._scale * b,
-            self.span * self._scale * self._deficit(v, b),
-            sign * self.span**2 * self._scale * c,
+            np.where(turn == 0.0, 0.0, angle - self._at[0]), b, backwards(np.asarray(self.velocity_peak - b)), c
         )
 
     def share_from_middle(self, turn: Reals) -> Reals:
-        """k - 1/2 of this half's symmetric stroke at angles of the law from k*."""
-        v = self.end_turn - np.abs(turn)
-        whole = self.law.share_from(np.atleast_1d(self.end_turn), late=self.late)
-        found = np.asarray(whole - self.law.share_from(v, late=self.late))
-        return np.sign(turn) * self._integrate(v, lambda sine, _: np.ones_like(sine), found) / self.span
+        """k - k* at angles of the law from k*."""
+        late, (start, end) = turn > 0.0, self.turns
+        if not late.any():
+            found = self._share(turn, -start, late=False)
+        elif late.all():
+            found = self._share(turn, end, late=True)
+        else:
+            found = np.where(late, self._share(turn, end, late=True), self._share(turn, -start, late=False))
+        return self._integrate(lambda sine, _: np.ones_like(sine), turn, found)
+
+    def _share(self, turn: Reals, whole: float, *, late: bool) -> Reals:
+        at_place, at = (self.law.share_from(v, late=late) for v in (np.atleast_1d(whole), whole - np.abs(turn)))
+        return np.asarray((at_place - at) * (1.0 if late else -1.0))
 
     def turn_near(self, share: float) -> float:
-        """About the angle of the law from k* at k - 1/2, by the pace there."""
-        turn = np.array([self.end_turn])
-        return share * self.span / float(self.law.pace(self._side * np.cos(turn), np.sin(turn))[0])
+        """About the angle of the law from k* at k - k*, by the pace there."""
+        return share / float(self.law.pace(*self._there)[0])
 
     def turn_at(self, share: float) -> float:
-        """The angle of the law from k* at k - 1/2."""
-        real = self.span * (0.5 - abs(share))
-        v = self._turn_of(np.array([1.0 - real if self.late else real]))
-        return math.copysign(self.end_turn - float(v[0]), share)
+        """The angle of the law from k* at k - k*."""
+        (sine,), (cosine,) = self.law.pendulum(np.array([self.place + share]))
+        return self.turns[1] - math.atan2(cosine, -sine) if share > 0.0 else self.turns[0] + math.atan2(cosine, sine)
 
-    def _deficit(self, v: Reals, velocity: Reals) -> Reals:
-        """B - b of the real law; near k* as the integral of its acceleration up to there."""
-        found = np.asarray(self.law.velocity_peak - velocity)
-        return self._integrate(v, lambda sine, cosine: self._side * self.law.rates_at(sine, cosine)[2], found)
-
-    def _integrate(self, v: Reals, of: Callable[[Reals, Reals], Reals], found: Reals) -> Reals:
-        """Put integrals over the time from v to k* where v is near k*: their digits are right down to there."""
-        near = self.end_turn - v <= _NEAR
+    def _integrate(self, of: Callable[[Reals, Reals], Reals], turn: Reals, found: Reals) -> Reals:
+        """Put integrals over the time from k* on where a turn is near: their digits are right down to there."""
+        near = np.abs(turn) <= self.near
         if near.any():
             some = np.flatnonzero(near.any(axis=tuple(range(near.ndim - 1))))
-            at = v[..., some]
             nodes, weights = gauss_legendre(12)
-            half = 0.5 * (self.end_turn - at)
-            places = (0.5 * (self.end_turn + at))[..., None] + half[..., None] * nodes
-            flat = places.reshape(*at.shape[:-1], -1)
-            sine, cosine = self._side * np.cos(flat), np.sin(flat)
-            values = (of(sine, cosine) * self.law.pace(sine, cosine)).reshape(places.shape)
-            integrals = half * np.sum(values * weights, axis=-1)
-            found[..., some] = np.where(near[..., some], integrals, found[..., some])
+            half = 0.5 * turn[..., some]
+            flat = (half[..., None] * (1.0 + nodes)).reshape(*half.shape[:-1], -1) - self.turns[0]
+            sine, cosine = np.cos(flat), np.sin(flat)
+            values = of(sine, cosine) * self.law.pace(sine, cosine)
+            values = values.reshape(*values.shape[:-1], some.size, nodes.size)
+            found[..., some] = np.where(near[..., some], half * np.sum(values * weights, axis=-1), found[..., some])
         return found
 
 
-@dataclass(frozen=True)
-class SliderCam:
-    """One cam of a twin-cam mechanism whose rocker drives a slider.
+def fastest_place(law: SliderLaw) -> float:
+    """k at which the rocker is fastest.
 
-    r = a/(1 + B alpha), the roller on the line of centres at k*, where b = B
-
-    Parameters
-        law : SliderLaw
-        cycle_angle : float [rad] - phi_ud, cam angle of the stroke
-        center_distance, roller_radius : float [mm] - a, r_p
-    Raises
-        NoSolution - as `WideSwingCam`
-    Notes
-        The return stroke runs the same law backwards: the same cam, turning the other way, serves it.
     Example
-        >>> import math
         >>> from gearlink.core.machines.wide_swing.law import Pneumatic
-        >>> from gearlink.core.machines.wide_swing.slider import SliderDrive
         >>> law = SliderLaw(Pneumatic(2.5), math.radians(120), SliderDrive(1.0, 3.0, math.pi / 2), 0.3)
-        >>> cam = SliderCam(law, math.radians(150), 200.0, 8.0)
-        >>> round(cam.middle, 9)
+        >>> round(fastest_place(law), 9)
         0.690248221
     """
-
-    law: SliderLaw
-    cycle_angle: float
-    center_distance: float
-    roller_radius: float
-    sense = 1
-
-    @cached_property
-    def middle(self) -> float:
-        """k*, where the rocker is fastest and the roller on the line of centres."""
-        return self.law.share_at(self.law.fastest_turn)
-
-    @cached_property
-    def halves(self) -> tuple[WideSwingCam, WideSwingCam]:
-        """The symmetric cams of which run-up and run-out are halves."""
-        made = [HalfLaw(self.law, self.middle, late) for late in (False, True)]
-        return tuple(  # type: ignore[return-value]
-            WideSwingCam("twin-cam", law, law.span * self.cycle_angle, self.center_distance, self.roller_radius)
-            for law in made
-        )
-
-    @property
-    def _spans(self) -> tuple[float, float]:
-        return 2.0 * self.middle, 2.0 * (1.0 - self.middle)
-
-    @property
-    def arm_offset(self) -> float:
-        """Rocker angle from mid-swing at which the roller passes the line of centres [rad]."""
-        return self.law.swing * (HalfLaw(self.law, self.middle, False).fastest - 0.5)
-
-    @property
-    def rocker_radius(self) -> float:
-        """r [mm]; the same for both halves."""
-        return self.halves[0].rocker_radius
-
-    @property
-    def middle_radius(self) -> float:
-        """Pitch radius on the line of centres [mm]."""
-        return self.halves[0].middle_radius
-
-    @property
-    def end_radius(self) -> float:
-        """The greater of the pitch radii at the ends of the stroke [mm]."""
-        return max(half.end_radius for half in self.halves)
-
-    @property
-    def min_radius(self) -> float:
-        """Minimum pitch radius [mm]."""
-        return min(half.min_radius for half in self.halves)
-
-    @property
-    def max_radius(self) -> float:
-        """Largest pitch radius [mm]."""
-        return max(half.max_radius for half in self.halves)
-
-    @property
-    def loop_margin(self) -> float:
-        """The lesser margin of both halves."""
-        return min(half.loop_margin for half in self.halves)
-
-    def require_profile(self) -> None:
-        """Refuse a profile of which a half does not exist.
-
-        Raises
-            NoSolution
-        """
-        for half in self.halves:
-            half.require_profile()
-
-    @property
-    def contact(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Parts of the stroke in which the roller touches the profile."""
-        before, after = (half.contact[0][1] * span for half, span in zip(self.halves, self._spans, strict=True))
-        return (0.0, before), (1.0 - after, 1.0)
-
-    @property
-    def transition_zone(self) -> float:
-        """Part of the stroke beside k*, on its wider side, where the roller has left the profile in its slot.
-
-        Notes
-            1/2 where it covers the profile of a whole half.
-        """
-        zones = [half.transition_zone for half in self.halves]
-        if 0.5 in zones:
-            return 0.5
-        return max(zone * span for zone, span in zip(zones, self._spans, strict=True))
-
-    @property
-    def transition_zone_estimate(self) -> float:
-        """`transition_zone` to leading order."""
-        pairs = zip(self.halves, self._spans, strict=True)
-        return max(half.transition_zone_estimate * span for half, span in pairs)
-
-    def largest_roller(self, zone: float) -> float:
-        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        pairs = zip(self.halves, self._spans, strict=True)
-        return min(half.largest_roller(min(0.49, zone / span)) for half, span in pairs)
-
-    @property
-    def max_pressure_angle(self) -> float:
-        """Largest magnitude of the pressure angle where the roller touches the profile [rad]."""
-        return max(half.max_pressure_angle for half in self.halves)
-
-    @property
-    def min_curvature_radius(self) -> float:
-        """Minimum radius of the pitch curve where it bulges and the roller touches it [mm]."""
-        return min(half.min_curvature_radius for half in self.halves)
-
-    def split(self, k: Reals) -> tuple[tuple[WideSwingCam, Mask, Reals], ...]:
-        """Each half with the rows that are its own, and their fractions of its symmetric stroke."""
-        early = k <= self.middle
-        first, second = self._spans
-        return (self.halves[0], early, k / first), (self.halves[1], ~early, (1.0 - k) / second)
-
-    def pressure_angle(self, k: Reals) -> Reals:
-        """Pressure angle at fractions of the stroke [rad], in the sign of `WideSwingCam`."""
-        found = np.empty_like(k)
-        for number, (half, rows, own) in enumerate(self.split(k)):
-            found[rows] = (-1.0 if number else 1.0) * half.pressure_angle(own[rows])
-        return found
-
-    def bulge(self, k: Reals) -> Reals:
-        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
-        found = np.empty_like(k)
-        for half, rows, own in self.split(k):
-            found[rows] = half.bulge(own[rows])
-        return found
-
-    def points(self, k: Reals) -> CamPoints:
-        """Pitch curve, profile, pressure angle and curvature at fractions of the stroke; as `WideSwingCam.points`.
-
-        Raises
-            NoSolution - for a profile of which a half does not exist
-        """
-        k = np.asarray(k, dtype=np.float64)
-        real = {name: np.empty_like(k) for name in ("cam_angle", "polar_angle", "pressure_angle", "curvature_radius")}
-        pitch: Points = np.empty(k.shape, dtype=np.complex128)
-        profile: Points = np.empty(k.shape, dtype=np.complex128)
-        for number, (half, rows, own) in enumerate(self.split(k)):
-            at = half.points(own[rows])
-            side = -1.0 if number else 1.0
-            pitch[rows] = at.pitch.conj() if number else at.pitch
-            profile[rows] = at.profile.conj() if number else at.profile
-            for name, column in real.items():
-                sign = 1.0 if name == "curvature_radius" else side
-                column[rows] = sign * getattr(at, name)
-        return CamPoints(k=k, pitch=pitch, profile=profile, **real)
+    return law.share_at(law.fastest_turn)

@@ -12,15 +12,14 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from gearlink.core.machines.wide_swing.cam import CamPoints, CurveState, WideSwingCam
 from gearlink.core.machines.wide_swing.oscillating_cam import Home, OscillatingCam, crank_angle, way_home
-from gearlink.core.machines.wide_swing.slider import SliderCam
 from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Points, Reals
 
@@ -28,17 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
 
 
-AnyCam = WideSwingCam | OscillatingCam | SliderCam
-
-
-def is_external(cam: AnyCam) -> bool:
-    """Whether the cam's body lies inside its profile."""
-    return isinstance(cam, OscillatingCam) or cam.sense > 0
-
-
-def middle_of(cam: AnyCam) -> float:
-    """Fraction of the stroke at which the roller passes the line of centres."""
-    return 0.5 if isinstance(cam, WideSwingCam) else cam.middle
+AnyCam = WideSwingCam | OscillatingCam
 
 
 def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
@@ -63,8 +52,7 @@ def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
     Source
         wide-swing dissertation, figures of chapters 3 and 4
     """
-    sense = 1.0 if is_external(cam) else -1.0
-    pivots: Points = -sense * cam.center_distance * np.exp(1j * sense * points.cam_angle)
+    pivots: Points = -cam.sense * cam.center_distance * np.exp(1j * cam.sense * points.cam_angle)
     return pivots
 
 
@@ -82,13 +70,13 @@ def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[P
     """
     run_up = cam.points(np.linspace(cam.contact[0][0], slot[0], count)).profile
     run_out = cam.points(np.linspace(slot[1], cam.contact[1][1], count)).profile
-    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
+    middle = complex(cam.points(np.array([cam.middle])).pitch[0])
     return run_up, _slot_bottom(cam, middle, run_up[-1], run_out[0]), run_out
 
 
 def _slot_bottom(cam: AnyCam, middle: complex, start: complex, end: complex) -> Points:
     """Arc of the roller at mid-swing from one contact point to the other, by way of the body."""
-    into_body = -middle / abs(middle) if is_external(cam) else middle / abs(middle)
+    into_body = -cam.sense * middle / abs(middle)
     first, last = (float(np.angle((point - middle) / into_body)) for point in (start, end))
     angles = np.linspace(first, last, 81)
     result: Points = middle + cam.roller_radius * into_body * np.exp(1j * angles)
@@ -107,76 +95,12 @@ def dwell_arc(cam: AnyCam) -> Points:
     """
     (begin, _), (_, end) = cam.contact
     last, first = (complex(z) for z in cam.points(np.array([end, begin])).profile)
-    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
+    middle = complex(cam.points(np.array([cam.middle])).pitch[0])
     start, stop = (float(np.angle(z / -middle)) for z in (last, first))
     share: Reals = np.linspace(0.0, 1.0, 181)
     radius = abs(last) ** (1.0 - share) * abs(first) ** share
     result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (stop - start) * share))
     return result
-
-
-# Where the roller of a wide-swing mechanism stands on its cam, which way that pushes it, and how it goes on
-
-
-class Path(NamedTuple):
-    """The roller at fractions of the stroke.
-
-    Fields
-        arm : (N,) complex array - its centre from the cam axis, in centre distances
-        outward : (N,) complex array - unit vector along which the profile pushes it
-        way : (N,) array - of its centre over the cam, in centre distances per input angle
-        turning : (N,) array - speed of the cam, per input angle
-    """
-
-    arm: Points
-    outward: Points
-    way: Reals
-    turning: Reals
-
-
-def outward(cam: WideSwingCam, state: CurveState) -> Points:
-    """Direction in which the profile pushes the roller, in the frame of the line of centres.
-
-    Notes
-        The body lies on the side of the inward normal of an external profile; at the cusp the limit of the run-up.
-    """
-    gradient = cam.curve.gradient(state)
-    size = np.abs(gradient)
-    cusp = size == 0.0
-    unit = gradient / np.where(cusp, 1.0, size) + np.where(cusp, 1j * cam.sense, 0.0)
-    return np.asarray(-cam.sense * unit)
-
-
-def path(cam: AnyCam, k: Reals, *, resting: bool = False) -> Path:
-    """The roller on any cam of a stroke; `resting`: on the arc beside the stroke of a cam that turns evenly."""
-    if isinstance(cam, OscillatingCam):
-        return _on_rocker(cam, k)
-    return _with_slider(cam, k) if isinstance(cam, SliderCam) else _even(cam, k, resting=resting)
-
-
-def _even(cam: WideSwingCam, k: Reals, *, resting: bool = False) -> Path:
-    state = cam.curve.state(k)
-    if resting:
-        ones = np.ones_like(k)
-        state = replace(state, a=ones, e=(1.0 - cam.ratio) * ones, second=0.0 * ones)
-    arm = -((1.0 - cam.ratio) + cam.ratio * state.s) + 1j * cam.ratio * np.sin(state.psi)
-    return Path(arm, outward(cam, state), np.abs(cam.curve.gradient(state)), np.ones_like(k))
-
-
-def _with_slider(cam: SliderCam, k: Reals) -> Path:
-    """Each half on the symmetric cam that it is half of; the run-out, taken backwards in time, is its mirror image."""
-    found = Path(*np.empty((2, *k.shape), dtype=np.complex128), *np.empty((2, *k.shape)))
-    for number, (half, rows, own) in enumerate(cam.split(k)):
-        at = _even(half, own[rows])
-        for whole, part in zip(found, at, strict=True):
-            whole[rows] = part.conj() if number else part
-    return found
-
-
-def _on_rocker(cam: OscillatingCam, k: Reals) -> Path:
-    """The body lies left of the roller's way over it."""
-    step, span = cam.step(k), cam.cycle_angle
-    return Path(step.arm, -1j * step.along, np.abs(step.first) / span, step.chi[1] / span)
 
 
 # A stroke of a wide-swing mechanism: how the rocker turns in it, and where its roller stands on the cam
@@ -248,7 +172,9 @@ class Stroke:
 
     def roller(self, k: Reals, *, resting: bool = False) -> tuple[Points, Points]:
         """Roller centre [mm] and the direction in which the cam pushes it; `resting`: on the arc beside its stroke."""
-        at = path(self.cam, self.profile(k)[0], resting=resting)
+        at: CurveState = self.cam.state(self.profile(k)[0])
+        if resting:
+            at = at.resting()
         place, push = self.to_world(self.cam.center_distance * at.arm), self.to_world(at.outward)
         return np.asarray(self.shaft + self.toward * place), np.asarray(self.toward * push)
 

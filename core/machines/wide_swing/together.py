@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,9 +13,10 @@ import numpy as np
 from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.many_designs import hand_in, hand_on, hand_out, in_groups, sought, stacked
 from gearlink.core.base.results import keep
-from gearlink.core.machines.wide_swing.cam import SHRINK, SMALLEST, WideSwingCam, room_before_middle
+from gearlink.core.machines.wide_swing.cam import SHRINK, SMALLEST, WideSwingCam
 from gearlink.core.machines.wide_swing.law import ElasticLaw
-from gearlink.core.machines.wide_swing.slider import HalfLaw, SliderLaw
+from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.periodic import CosineSeries
 from gearlink.core.numerics.roots_sweep import bracketed_roots
 
@@ -36,7 +38,7 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
     """
     _share_laws(designs)
     cams = [cam for design in designs for cam in _cams_of(design) if cam.given_rocker_radius is None]
-    for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law), getattr(cam.law, "late", False))):
+    for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law))):
         sought(lambda some: _find_cams(some, asked), group)
     if "closed-contour" in asked:
         closed = [cam for design in designs if design.spec.cycle is not None for cam in _contours(design)]
@@ -54,11 +56,11 @@ def _share_laws(designs: Sequence[WideSwingDesign]) -> None:
 
 
 def _cams_of(design: WideSwingDesign) -> list[WideSwingCam]:
-    """The cams that turn evenly, or halves of one; what is wrong with others they say themselves."""
+    """The cams that turn evenly; what is wrong with others they say themselves."""
     if design.spec.drive is None and design.spec.cam is not None:
         with suppress(GearlinkError):
             if design.spec.slider is not None:
-                return list(design.slider_cam.halves)
+                return [design.slider_cam]
             return [cam for cam in (design.even_cam, design.return_cam) if cam is not None]
     return []
 
@@ -67,10 +69,10 @@ def _law_of(laws: Sequence[Any]) -> Any:
     """All of them as one."""
     if all(law is laws[0] for law in laws):
         return laws[0]
-    if isinstance(laws[0], HalfLaw):
-        half = stacked(laws, law=_slider_law_of([law.law for law in laws]))
-        hand_in(half, laws, "end_turn", "_fastest_angle", "fastest", "swing")
-        return half
+    if isinstance(laws[0], AimedLaw):
+        aimed = stacked(laws, law=_slider_law_of([law.law for law in laws]))
+        hand_in(aimed, laws, "turns", "_at")
+        return aimed
     many = _without_time(laws)
     hand_in(many, laws, *_LAW)
     keep(many, _clock_from_middle=CosineSeries.of_many([law._clock_from_middle for law in laws]))
@@ -102,7 +104,7 @@ def _as_one(cams: Sequence[WideSwingCam]) -> WideSwingCam:
 
 def _find_cams(cams: Sequence[WideSwingCam], asked: frozenset[str]) -> None:
     """Loops; of those without one where the roller touches them, and extremes there."""
-    hand_out(_as_one(cams), cams, "least_loop_measure")
+    hand_out(_as_one(cams), cams, "least_loop_measures")
     there = [cam for cam in cams if _exists(cam)]
     sought(_find_contacts, [cam for cam in there if cam.transition_zone_estimate >= SMALLEST])
     sought(lambda some: _find_tops(some, asked), [cam for cam in there if _is_touched(cam)])
@@ -117,34 +119,47 @@ def _exists(cam: WideSwingCam) -> bool:
 
 def _is_touched(cam: WideSwingCam) -> bool:
     with suppress(NoSolution):
-        return cam.contact_end[0] > 0.0
+        return all(0.0 < end < 1.0 for end, _ in cam.contact_ends)
     return False
 
 
 def _find_contacts(cams: Sequence[WideSwingCam]) -> None:
     """Where the roller leaves the profile; where it covers the whole the cam says so itself."""
-    nearest = min(cam.law.turn_near(min(cam.transition_zone_estimate, 0.5)) / cam.law.end_turn for cam in cams)
-    shrunk = np.power(SHRINK, np.arange(math.ceil(math.log(0.01 * nearest, SHRINK)) + 1))
-    turns = np.array([[cam.law.end_turn] for cam in cams]) * shrunk
-    room = room_before_middle(_as_one(cams), turns)
-    first = np.argmax(room < 0.0, axis=1)
-    rows = np.flatnonzero(first > 0)
+    many, sides = _as_one(cams), cams[0].sides(-1.0, 1.0)
+    ways = [_turns_from_end(cams, side) for side in sides]
+    rooms = [many.room_at(side * turns) for side, turns in zip(sides, ways, strict=True)]
+    firsts = [np.argmax(room < 0.0, axis=1) for room in rooms]
+    rows = np.flatnonzero(np.min(firsts, axis=0) > 0)
     if not rows.size:
         return
-    some, places = [cams[row] for row in rows.tolist()], [(rows, first[rows] - back) for back in (0, 1)]
-    many, (low, high) = _as_one(some), (turns[place] for place in places)
-    ends = room[places[0]], room[places[1]]
-    roots = bracketed_roots(lambda turn: room_before_middle(many, turn[:, None])[:, 0], low, high, ends=ends)
-    share = many.law.share_from_middle(-roots[:, None])
-    hand_on(some, contact_end=(0.5 + share, -roots[:, None]))
+    some = [cams[row] for row in rows.tolist()]
+    many, found = _as_one(some), []
+    for side, turns, room, first in zip(sides, ways, rooms, firsts, strict=True):
+        places = [(rows, first[rows] - back) for back in (0, 1)]
+        (low, high), ends = (turns[place] for place in places), (room[places[0]], room[places[1]])
+        roots = side * bracketed_roots(partial(_room_on_side, many, side), low, high, ends=ends)[:, None]
+        found.append((many.middle + many.law.share_from_middle(roots), roots))
+    hand_on(some, contact_ends=tuple(found))
+
+
+def _turns_from_end(cams: Sequence[WideSwingCam], side: float) -> Reals:
+    """Angles of the laws from an end of the stroke to where a contact with k* ends at the latest; a row for each."""
+    far = np.array([[abs(cam.law.turns[side > 0.0])] for cam in cams])
+    near = [cam.law.turn_near(min(cam.transition_zone_estimate, 0.5)) for cam in cams]
+    nearest = float(np.min(near / far[:, 0]))
+    return np.asarray(far * np.power(SHRINK, np.arange(math.ceil(math.log(0.01 * nearest, SHRINK)) + 1)))
+
+
+def _room_on_side(many: WideSwingCam, side: float, turn: Reals) -> Reals:
+    return many.room_at(side * turn[:, None])[:, 0]
 
 
 def _find_tops(cams: Sequence[WideSwingCam], asked: frozenset[str]) -> None:
     """Pressure angle and bulge where the roller touches, and its force."""
     many = _as_one(cams)
-    hand_in(many, cams, "contact_end")
+    hand_in(many, cams, "contact_ends")
     hand_out(many, cams, "tops")
-    if "contact_force" in asked:
+    if "contact_force" in asked and many.symmetric:
         hand_out(many, cams, "pressing")
 
 

@@ -502,14 +502,8 @@ def end_position_gain(design: WideSwingDesign) -> float:
     """
     cam, radius = design.cam, design.spec.output_radius
     assert radius is not None, "asked for where the file has it"
-    a, r = cam.center_distance, cam.rocker_radius
-    offset = getattr(cam, "arm_offset", 0.0)
-    sense = -1.0 if design.spec.layout == "twin-rocker" else 1.0
-    gains = []
-    for end in (0.5 * design.motion.swing + offset, 0.5 * design.motion.swing - offset):
-        rho = math.sqrt((a - r) ** 2 + 4.0 * a * r * math.sin(0.5 * end) ** 2) if sense > 0.0 else cam.end_radius
-        gains.append(radius / r * rho / (a * math.sin(end)))
-    return max(gains, key=abs)
+    arms = cam.rocker_radius * cam.center_distance
+    return max((radius * cam.pitch_radius(end) / (arms * math.sin(end)) for end in cam.ends), key=abs)
 
 
 def flank_impact(design: WideSwingDesign) -> Iterator[Check]:

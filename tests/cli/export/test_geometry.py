@@ -644,9 +644,7 @@ def test_csv_of_a_swing_cam_leaves_the_slot_empty() -> None:
     assert (k[0], k[-1]) == (0.0, 1.0)
     assert all(low < high for low, high in pairwise(k))
     touching = [float(row["k"]) for row in rows if row["x [mm]"]]
-    from gearlink.core.machines.wide_swing.cam import contact_end
-
-    end = contact_end(design.cam)
+    end = design.cam.contact[0][1]
     assert max(value for value in touching if value < 0.5) == end
     assert min(value for value in touching if value > 0.5) == 1.0 - end
     assert all(row["pitch_x [mm]"] for row in rows)

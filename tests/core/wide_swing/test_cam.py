@@ -46,11 +46,13 @@ def cam(layout: Layout, scale: float = 1.0) -> WideSwingCam:
 class Harmonic:
     """The harmonic law as a second kind of law: a = sin^2(pi k/2)."""
 
+    place, offset, acceleration, symmetric = 0.5, 0.0, 0.0, True
+
     def __init__(self, swing: float) -> None:
         self.swing = swing
         self.velocity_peak = 0.5 * math.pi
         self.middle_jerk = -0.5 * math.pi**3
-        self.end_turn = 0.5
+        self.turns = (-0.5, 0.5)
 
     def view_at(self, turn: np.ndarray) -> MiddleView:
         return self.middle_view(0.5 + turn)
@@ -256,8 +258,8 @@ def test_loop_of_a_soft_centred_law() -> None:
     # the polar angle of the firm one rises everywhere, the soft one's does not
     k = np.linspace(0.3, 0.5, 401)
     for mechanism, rises in ((firm, True), (soft, False)):
-        state = mechanism.curve.state(k)
-        theta = state.theta - mechanism.curve.correction(state)
+        state = mechanism.state(k)
+        theta = state.theta - state.correction
         assert bool(np.all(np.diff(theta) > 0.0)) is rises
 
 

@@ -321,8 +321,7 @@ def test_the_free_sector_by_the_cam_angle(clearance: float) -> None:
         place, roller = closed.starts[2:4], closed.cam.roller_radius
 
         def bend(t: Any, closed: Any = closed) -> Any:
-            curvature = closed.cam.curve.curvature(closed.state(2, t))
-            return np.maximum(0.0, closed.cam.sense / closed.cam.center_distance * curvature)
+            return np.maximum(0.0, closed.state(2, t).bulge / closed.cam.center_distance)
 
         sharpest, worst, least = (each.value for each in closed.free)
         assert sharpest == pytest.approx(maximum_over(bend, *place, samples=256).value, rel=1e-12)

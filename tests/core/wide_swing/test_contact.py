@@ -18,7 +18,6 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.wide_swing.cam import (
     Layout,
     WideSwingCam,
-    contact_end,
     middle_radius_estimate,
     start_radius_estimate,
 )
@@ -63,7 +62,7 @@ def test_reference_limits_and_estimates(case: str, layout: Layout) -> None:
 def test_no_profile_point_in_contact_is_cut_by_the_roller(case: str, layout: Layout) -> None:
     """The roller's envelope by brute force: points before the end of contact stay clear of every roller place."""
     mechanism = cam(layout)
-    end = contact_end(mechanism)
+    end = mechanism.contact[0][1]
     rollers = mechanism.points(np.linspace(0.0, 0.5, 2001)).pitch
     before = mechanism.points(np.linspace(0.0, end - 1e-6, 300)).profile
     after = mechanism.points(np.linspace(end + 1e-3, 0.5 - 1e-4, 50)).profile
@@ -79,7 +78,7 @@ def test_four_thirds(case: str, layout: Layout) -> None:
     excess = []
     for roller in (mechanism.roller_radius, 0.1 * mechanism.roller_radius):
         smaller = replace(mechanism, roller_radius=roller)
-        lost, cut = 0.5 - contact_end(smaller), 0.5 - undercut_start(smaller)
+        lost, cut = 0.5 - smaller.contact[0][1], 0.5 - undercut_start(smaller)
         excess.append(abs(lost / cut - 4.0 / 3.0))
         # the next order is the square of the roller's radius
         share = roller / mechanism.roller_radius
@@ -105,12 +104,12 @@ def test_estimate_of_the_start_serves_the_twin_cam_alone() -> None:
 def test_roller_too_large() -> None:
     large = replace(cam("twin-cam"), roller_radius=0.5)
     with pytest.raises(NoSolution, match=r"set cam.roller_radius below") as refusal:
-        contact_end(large)
+        _ = large.contact[0][1]
     limit = float(str(refusal.value).split("below ")[1].split(" mm")[0])
     # four digits of the limit are printed
-    assert contact_end(replace(large, roller_radius=limit)) < 1e-3
+    assert replace(large, roller_radius=limit).contact[0][1] < 1e-3
     with pytest.raises(NoSolution):
-        contact_end(replace(large, roller_radius=1.001 * limit))
+        _ = replace(large, roller_radius=1.001 * limit).contact[0][1]
 
 
 @pytest.mark.quick(2)
@@ -156,7 +155,7 @@ def test_a_smooth_bend_is_cut_before_the_roller_stands_at_mid_swing(share: float
     """Every place of the roller is tried, 4,000 of them: what stands at mid-swing alone leaves up to 0.002 more."""
     nominal = WideSwingCam("twin-cam", LAW, math.radians(120.0), 200.0, roller)
     shorter = replace(nominal, given_rocker_radius=share * nominal.rocker_radius)
-    end = contact_end(shorter)
+    end = shorter.contact[0][1]
     path = shorter.points(np.linspace(0.0, 0.5, 4001)).pitch
     kept, cut = shorter.points(np.array([end - 1e-4, end + 1e-4])).profile
     assert np.abs(path - kept).min() > roller * (1.0 - 1e-12)

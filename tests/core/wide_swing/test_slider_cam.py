@@ -20,20 +20,24 @@ from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
 from gearlink.core.machines.wide_swing.oscillating_cam import crank_angle, way_home
 from gearlink.core.machines.wide_swing.oscillating_cam import need_home as way_home_ratio
-from gearlink.core.machines.wide_swing.slider import HalfLaw, SliderCam, SliderDrive, SliderLaw
+from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderDrive, SliderLaw, fastest_place
 from gearlink.core.machines.wide_swing.spec import WideSwingSpec
 
 GAMMA, ANGLE, A, R = math.radians(120.0), math.radians(150.0), 200.0, 8.0
 DRIVE = SliderDrive(150.0, 450.0, math.radians(90.0))
 
 
-def cam(share: float = 0.3) -> SliderCam:
-    return SliderCam(SliderLaw(Pneumatic(2.6), GAMMA, DRIVE, share), ANGLE, A, R)
+def law(share: float = 0.3) -> SliderLaw:
+    return SliderLaw(Pneumatic(2.6), GAMMA, DRIVE, share)
 
 
-def path(made: SliderCam, k: Any) -> Any:
+def cam(share: float = 0.3) -> WideSwingCam:
+    return WideSwingCam("twin-cam", AimedLaw(law(share), fastest_place(law(share))), ANGLE, A, R)
+
+
+def path(made: WideSwingCam, k: Any) -> Any:
     """The roller's centre in the turning cam, from the rocker's angle."""
-    phi = made.law.swing * (made.law.invariants(np.asarray(k), 0)[0] - 0.5) - made.arm_offset
+    phi = GAMMA * (law().invariants(np.asarray(k), 0)[0] - 0.5) - made.arm_offset
     theta = made.cycle_angle * (np.asarray(k) - made.middle)
     return np.exp(1j * theta) * (made.rocker_radius * np.exp(1j * phi) - A)
 
@@ -45,23 +49,20 @@ def test_pitch_curve_is_the_rollers_path() -> None:
 
 def test_roller_is_fastest_on_the_line_of_centres() -> None:
     made = cam()
-    b = made.law.invariants(np.linspace(0.0, 1.0, 20001), 1)[1]
+    b = law().invariants(np.linspace(0.0, 1.0, 20001), 1)[1]
     assert made.middle == pytest.approx(float(np.argmax(b)) / 20000, abs=1e-4)
-    first, second = made.halves
-    assert first.rocker_radius == pytest.approx(second.rocker_radius, rel=1e-13)
     assert made.rocker_radius == pytest.approx(A / (1.0 + float(b.max()) * GAMMA / ANGLE), rel=1e-8)
 
 
-def test_each_half_goes_on_through_the_middle_of_its_symmetric_stroke() -> None:
-    """Beyond mid-swing as before it: the rates of the view are those of its angle, by differences over h."""
-    made, h = cam(), 1e-5
-    for late in (False, True):
-        half = HalfLaw(made.law, made.middle, late)
-        for k in (0.2, 0.45, 0.55, 0.8):
-            low, at, high = (half.middle_view(np.array([k + side * h])) for side in (-1, 0, 1))
-            assert (high.angle - low.angle) / (2.0 * h) == pytest.approx(half.swing * at.velocity, rel=1e-7)
-            assert (high.velocity - low.velocity) / (2.0 * h) == pytest.approx(at.acceleration, rel=1e-6, abs=1e-6)
-            assert at.velocity + at.deficit == pytest.approx(half.velocity_peak, rel=1e-13)
+def test_rates_of_the_view_are_those_of_its_angle() -> None:
+    """On both sides of k*, by differences over h."""
+    aimed, h = cam().law, 1e-5
+    for k in (0.2, 0.45, 0.55, 0.68, 0.72, 0.8):
+        low, at, high = (aimed.middle_view(np.array([k + side * h])) for side in (-1, 0, 1))
+        assert (high.angle - low.angle) / (2.0 * h) == pytest.approx(aimed.swing * at.velocity, rel=1e-7)
+        assert (high.velocity - low.velocity) / (2.0 * h) == pytest.approx(at.acceleration, rel=1e-6, abs=1e-6)
+        assert at.velocity + at.deficit == pytest.approx(aimed.velocity_peak, rel=1e-13)
+    assert aimed.middle_view(np.array([aimed.place])).angle[0] == 0.0
 
 
 def test_profile_stands_on_the_normal_and_the_pressure_angle_on_the_arm() -> None:
@@ -108,25 +109,24 @@ def test_without_the_sliders_mass_it_is_the_rockers_own_cam() -> None:
 
 
 def test_deficit_is_the_peak_less_the_velocity() -> None:
-    law = cam().law
-    half = HalfLaw(law, cam().middle, late=False)
-    view = half.middle_view(np.array([0.1, 0.3, 0.45, 0.49]))
-    np.testing.assert_allclose(view.deficit, half.velocity_peak - view.velocity, rtol=0.0, atol=1e-12)
+    aimed = cam().law
+    view = aimed.middle_view(np.array([0.1, 0.3, 0.64, 0.65, 0.73, 0.75, 1.0]))
+    np.testing.assert_allclose(view.deficit, aimed.velocity_peak - view.velocity, rtol=0.0, atol=1e-12)
 
 
 def test_torque_of_the_device_is_the_change_of_the_energy() -> None:
-    law = cam().law
+    moved = law()
     k, h = np.array([0.1, 0.35, 0.6, 0.9]), 1e-5
 
     def energy(at: Any) -> Any:
         """b^2 j/2, of rocker and slider together."""
-        b = law.invariants(at, 1)[1]
-        slider = law.slider_invariants(at)[1]
-        return 0.5 * (law.rocker_share * b * b + (1.0 - law.rocker_share) * slider * slider)
+        b = moved.invariants(at, 1)[1]
+        slider = moved.slider_invariants(at)[1]
+        return 0.5 * (moved.rocker_share * b * b + (1.0 - moved.rocker_share) * slider * slider)
 
     gained = energy(k + h) - energy(k - h)
-    turned = law.invariants(k + h, 0)[0] - law.invariants(k - h, 0)[0]
-    np.testing.assert_allclose(law.device_torque(k), gained / turned, rtol=1e-6)
+    turned = moved.invariants(k + h, 0)[0] - moved.invariants(k - h, 0)[0]
+    np.testing.assert_allclose(moved.device_torque(k), gained / turned, rtol=1e-6)
 
 
 @pytest.mark.slow
@@ -174,6 +174,13 @@ def test_film_turns_the_cam_under_the_roller() -> None:
 def test_a_heavy_slider_is_judged() -> None:
     made = design("wide_swing_slider_cam", command="cam", slider__mass=1e6)
     assert "fail" in {check.status for name in made.outline("cam").checks for check in made.check(name)}
+
+
+def test_a_long_stroke_without_symmetry_is_judged() -> None:
+    """Run-up and run-out are each less than a revolution; twice the longer one, 458 deg, is not."""
+    made = design("wide_swing_slider_cam", command="swing", cycle_angle=340.0, slider__middle_angle=90.0)
+    assert 2.0 * made.cam.middle * 340.0 == pytest.approx(458.3, abs=0.1)
+    assert made.check("profile-exists")[0].status == "pass"
 
 
 def test_a_roller_that_covers_the_profile_is_refused() -> None:
@@ -252,18 +259,16 @@ def test_way_home_of_rocker_and_slider() -> None:
     np.testing.assert_allclose(way_home_ratio(cam, k), expected, rtol=1e-6)
 
 
-@pytest.mark.parametrize("late", [False, True])
-def test_the_angle_of_a_half_gives_the_motion_that_the_time_gives(late: bool) -> None:
-    """Times and deficits beside k* are integrals; the others, differences of places, keep 1e-11 at 0.01 of the half."""
-    made = cam()
-    law = HalfLaw(made.law, made.middle, late)
-    k = np.array([0.01, 0.2, 0.4, 0.46, 0.49, 0.51, 0.8])
-    turns = np.array([law.turn_at(share) for share in (k - 0.5).tolist()])
-    np.testing.assert_allclose(law.share_from_middle(turns), k - 0.5, rtol=1e-11)
-    seen, expected = law.view_at(turns), law.middle_view(k)
+def test_the_angle_of_the_law_gives_the_motion_that_the_time_gives() -> None:
+    """Times and deficits beside k* are integrals; the others, differences of places, keep 1e-11 at 0.01 of the way."""
+    aimed = cam().law
+    shares = np.array([-0.69, -0.4, -0.1, -0.03, -0.01, 0.004, 0.01, 0.1, 0.2, 0.3])
+    k = aimed.place + shares
+    turns = np.array([aimed.turn_at(share) for share in shares.tolist()])
+    for side in (shares < 0.0, shares > 0.0, shares != 0.0):
+        np.testing.assert_allclose(aimed.share_from_middle(turns[side]), shares[side], rtol=1e-11)
+    seen, expected = aimed.view_at(turns), aimed.middle_view(k)
     for name in ("angle", "velocity", "deficit", "acceleration"):
         np.testing.assert_allclose(getattr(seen, name), getattr(expected, name), rtol=1e-10, atol=1e-13)
-    step = 1e-5
-    before, after = (law.middle_view(k + side * step) for side in (-1, 1))
-    np.testing.assert_allclose(seen.velocity * law.swing, (after.angle - before.angle) / (2.0 * step), rtol=1e-6)
-    assert law.turn_near(1e-6) == pytest.approx(law.turn_at(1e-6), rel=1e-4)
+    assert aimed.share_from_middle(np.array(aimed.turns)) == pytest.approx([-aimed.place, 1.0 - aimed.place], rel=1e-13)
+    assert aimed.turn_near(1e-6) == pytest.approx(aimed.turn_at(1e-6), rel=1e-4)
