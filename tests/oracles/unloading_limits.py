@@ -11,8 +11,10 @@ import math
 import numpy as np
 
 from gearlink.core.machines.wide_swing.device import Device, Pneumatic, require_swing
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
+from gearlink.core.numerics.roots import bracketed_root
 
 
 def pendulum_stretch_ratio(pivot_ratio: float, swing: float) -> float:
@@ -143,3 +145,58 @@ def small_swing_peaks(device: Device) -> tuple[float, float]:
     slack = 1.0 + 2.0 * device.stretch_ratio
     quarter = complete_integral(math.sqrt(slack / (1.0 + slack)))
     return math.sqrt(slack / (1.0 + slack)) * quarter, 2.0 * quarter**2
+
+
+def invariants(law: ElasticLaw, k: float, order: int = 2) -> tuple[float, ...]:
+    """Those of a law at one place."""
+    return tuple(float(x[0]) for x in law.invariants(np.array([k]), order))
+
+
+def energy_parameter(law: ElasticLaw, nodes: int) -> float:
+    """N = ((2/gamma) Int F du)^2 from a given number of nodes over half the stroke: the convergence of the quadrature.
+
+    Example
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> [f"{energy_parameter(law, n) - law.energy_parameter:.0e}" for n in (2, 4, 8)]
+        ['-4e-03', '-1e-06', '-2e-13']
+    """
+    span, g = complete_integral(law.modulus_complement), law.geometry
+    z = (np.arange(nodes) + 0.5) * (span / nodes)
+    cosine, sine = jacobi_sn_cn(z, law.modulus, law.modulus_complement)
+    slowness = law.slowness(sine, cosine) * g.length(sine) / g.longest
+    return (2.0 / law.swing * span * math.fsum(slowness.tolist()) / nodes) ** 2
+
+
+def iterated(ratio: float, swing: float, *, steps: int, exponent: int) -> tuple[float, int]:
+    """N of a cylinder, and the passes that it takes, by the dissertation's iteration N <- mu^exponent N from B = 2.
+
+    a_{i+1} = a_i + (b_i + b_{i+1}) dk/2 to k = 1/2, b = sqrt(N (l(0) - l(a))), l by the cosine rule; mu = 0.5/a(1/2)
+
+    Raises
+        ArithmeticError - where mu has not come within 1e-12 of 1 in 100 passes, or a march leaves the swing
+    """
+
+    def speed(a: float, parameter: float) -> float:
+        length, longest = (
+            math.sqrt(1.0 + ratio * ratio - 2.0 * ratio * math.cos(phi)) for phi in ((0.5 - a) * swing, 0.5 * swing)
+        )
+        if length > longest * (1.0 + 1e-15):
+            raise ArithmeticError("the march leaves the swing")
+        return math.sqrt(parameter * max(0.0, longest - length))
+
+    parameter, dk = (2.0 / speed(0.5, 1.0)) ** 2, 0.5 / steps
+    for passes in range(1, 101):
+        a = b = 0.0
+        for _ in range(steps):
+            step = max(4.0 * speed(0.5, parameter) * dk, 1e-9)
+
+            def left(end: float, a: float = a, b: float = b, parameter: float = parameter) -> float:
+                return end - a - 0.5 * (b + speed(end, parameter)) * dk
+
+            a = bracketed_root(left, a + 1e-3 * b * dk + 1e-9, min(a + step, 1.0))
+            b = speed(a, parameter)
+        mu = 0.5 / a
+        if abs(mu - 1.0) <= 1e-12:
+            return parameter, passes
+        parameter *= mu**exponent
+    raise ArithmeticError("no end in 100 passes")

@@ -56,7 +56,7 @@ from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam
     from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
-    from gearlink.core.machines.wide_swing.law import LegacyLaw, MarchedLaw
+    from gearlink.core.machines.wide_swing.law import LegacyLaw
     from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.machines.wide_swing.spec import SecondShaft, SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.machines.wide_swing.strokes import AnyCam
@@ -623,14 +623,12 @@ class Unloading:
         return self.size.strength if self.spec.unloader.type == "spring" else None
 
     @cached_property
-    def iteration(self) -> LegacyLaw | MarchedLaw:
+    def iteration(self) -> LegacyLaw:
         """The source's own iteration, for comparison; with a slider over the whole stroke."""
-        from gearlink.core.machines.wide_swing.law import legacy_law, slider_law
+        from gearlink.core.machines.wide_swing.law import legacy_law
 
-        motion, steps = self.motion, self.spec.iteration_steps
-        if self.spec.slider is not None:
-            return slider_law(motion.device, motion.swing, motion.slider.inertia_at, steps=steps)
-        return legacy_law(motion.device, motion.swing, steps=steps)
+        motion, inertia = self.motion, None if self.spec.slider is None else self.motion.slider.inertia_at
+        return legacy_law(motion.device, motion.swing, inertia, steps=self.spec.iteration_steps)
 
     @property
     def iteration_error(self) -> float:
@@ -1272,12 +1270,11 @@ class WideSwingDesign(Design):
 
     def table_iteration(self, _samples: int | None = None) -> Table:
         """Steps of the source's iteration against its error; with a slider its passes; two marches add up to 1."""
-        from gearlink.core.machines.wide_swing.law import MarchedLaw, legacy_law
+        from gearlink.core.machines.wide_swing.law import legacy_law
 
-        marched = self.unloading.iteration
-        if isinstance(marched, MarchedLaw):
+        if self.spec.slider is not None:
             heads = ("pass", "energy_parameter", "mu", "displacement_forward", "displacement_backward")
-            passes = zip(*marched.rows, strict=True)
+            passes = zip(*self.unloading.iteration.rows, strict=True)
             return Table.of("iteration", {head: (list(each), "1") for head, each in zip(heads, passes, strict=True)})
         motion, steps = self.motion, (5, 10, 20, 50, 100, 200)
         laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]

@@ -14,7 +14,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -23,14 +22,13 @@ from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike
 from gearlink.core.machines.wide_swing.device import Device, DeviceGeometry
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Kept, MiddleView, kept_for
+from gearlink.core.machines.wide_swing.law import Clock, ElasticLaw, Kept, MiddleView, kept_for, require_share
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
-from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series
+from gearlink.core.numerics.periodic import CosineSeries, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.numerics.roots_sweep import newton_places
 from gearlink.core.parts.linkages.slider_crank import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
@@ -38,7 +36,6 @@ _TOO_SHARP = (
     "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
     "the position where rod and arm are collinear, or lengthen slider.rod"
 )
-_GRID = np.linspace(0.0, math.pi, 513)
 
 
 def reference_inertia(rocker_inertia: float, mass: float, stroke: float, swing: float) -> tuple[float, float]:
@@ -142,7 +139,7 @@ class SliderLaw:
     Notes
         The integral runs over the whole stroke; b(1/2) is neither the velocity at mid-swing nor the peak.
     Example
-        >>> from gearlink.core.machines.wide_swing.law import Pneumatic
+        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
         >>> drive = SliderDrive(crank=1.0, rod=3.0, middle_angle=math.pi / 2)
         >>> law = SliderLaw(Pneumatic(2.5), math.radians(120), drive)
         >>> round(law.energy_parameter, 12), round(law.middle_place, 12)
@@ -206,7 +203,7 @@ class SliderLaw:
         """j where the rocker has passed a share of the swing, in plain scalars.
 
         Example
-            >>> from gearlink.core.machines.wide_swing.law import Pneumatic
+            >>> from gearlink.core.machines.wide_swing.device import Pneumatic
             >>> law = SliderLaw(Pneumatic(2.5), 2.0, SliderDrive(1.0, 3.0, math.pi / 2), 1.0)
             >>> law.inertia_at(0.2)
             1.0
@@ -301,7 +298,7 @@ class SliderLaw:
 
     def share_at(self, v: float) -> float:
         """k at an angle v from the start."""
-        return float(self._time_of(np.array([v]), self.clock)[0]) / self._total
+        return float(self._from_start.time(np.array([v]))[0]) / self._total
 
     def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity and acceleration invariants of the rocker.
@@ -374,7 +371,7 @@ class SliderLaw:
 
     def share_from(self, v: Reals, *, late: bool) -> Reals:
         """Fraction of the stroke to an angle v counted from its start, or back from its end."""
-        return self._time_of(v, self._clock_from_end if late else self.clock) / self._total
+        return (self._from_end if late else self._from_start).time(v) / self._total
 
     def _rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
         g, parameter = self.geometry, self.energy_parameter
@@ -399,49 +396,36 @@ class SliderLaw:
         return {}
 
     def _turned(self, k: Reals) -> tuple[Reals, Reals]:
-        if not bool(np.all((k >= 0.0) & (k <= 1.0))):
-            raise NoSolution("the fraction of the stroke k must lie between 0 and 1")
+        require_share(k)
         late = k > 0.5
         sine, cosine = np.empty_like(k), np.empty_like(k)
         for part, fraction, clock, side in (
-            (~late, k, self.clock, 1.0),
-            (late, 1.0 - k, self._clock_from_end, -1.0),
+            (~late, k, self._from_start, 1.0),
+            (late, 1.0 - k, self._from_end, -1.0),
         ):
-            v = self._invert(fraction[part], clock, side)
+            v = clock.angles(fraction[part])
+            if v is None:
+                raise NoSolution(_TOO_SHARP, key="slider")
             sine[part], cosine[part] = side * np.cos(v), np.sin(v)
         return sine, cosine
 
-    def _invert(self, k: Reals, clock: CosineSeries, side: float) -> Reals:
-        """Angle v = pi/2 - |u| counted from one end of the stroke, by Newton steps."""
-        v = (self._from_start if side > 0.0 else self._from_end).places_of(k)
-
-        def excess(at: Reals, rows: Any) -> tuple[Reals, Reals]:
-            slowness = self._slowness(side * np.cos(at), np.sin(at))
-            return self._time_of(at, clock) - k[rows] * clock.total, slowness
-
-        found = newton_places(excess, v, math.pi)
-        if found is not None:
-            return found
-        raise NoSolution(_TOO_SHARP, key="slider")
+    @cached_property
+    def _from_start(self) -> Clock:
+        """gamma sqrt(N) times the fraction of the stroke from the start to v = pi/2 - u."""
+        return self._from(self.clock, 1.0)
 
     @cached_property
-    def _from_start(self) -> RisingTable:
-        """Fractions of the stroke by the angle v from the start."""
-        return self._table(self.clock, 1.0)
-
-    @cached_property
-    def _from_end(self) -> RisingTable:
+    def _from_end(self) -> Clock:
         """The same, backwards from the end."""
-        return self._table(self._clock_from_end, -1.0)
+        return self._from(self._clock_from_end, -1.0)
 
-    def _table(self, clock: CosineSeries, side: float) -> RisingTable:
-        slopes = self._slowness(side * np.cos(_GRID), np.sin(_GRID)) / clock.total
-        return RisingTable(_GRID, self._time_of(_GRID, clock) / clock.total, slopes)
+    def _from(self, clock: CosineSeries, side: float) -> Clock:
+        def time(v: Reals) -> Reals:
+            complement = self._half.modulus_complement
+            z = incomplete_integral(np.sin(v), np.abs(np.cos(v)), self._half.modulus, complement)
+            return clock.integral(np.where(np.cos(v) < 0.0, clock.span - z, z))
 
-    def _time_of(self, v: Reals, clock: CosineSeries) -> Reals:
-        complement = self._half.modulus_complement
-        z = incomplete_integral(np.sin(v), np.abs(np.cos(v)), self._half.modulus, complement)
-        return clock.integral(np.where(np.cos(v) < 0.0, clock.span - z, z))
+        return Clock(time, lambda v: self._slowness(side * np.cos(v), np.sin(v)), self._total, math.pi)
 
 
 # The law without symmetry, as a cam sees it
@@ -580,7 +564,7 @@ def fastest_place(law: SliderLaw) -> float:
     """k at which the rocker is fastest.
 
     Example
-        >>> from gearlink.core.machines.wide_swing.law import Pneumatic
+        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
         >>> law = SliderLaw(Pneumatic(2.5), math.radians(120), SliderDrive(1.0, 3.0, math.pi / 2), 0.3)
         >>> round(fastest_place(law), 9)
         0.690248221

@@ -71,7 +71,7 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
     Raises
         NoSolution - when inertia or time is not positive
     Example
-        >>> from gearlink.core.machines.wide_swing.law import Pneumatic
+        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(inertia_torque_peak(0.5, law, 0.20080321285140562), 9)
         113.235429407
@@ -115,7 +115,7 @@ def speed_sweep(
     Raises
         NoSolution - when inertia or time is not positive, or a speed or f is negative
     Example
-        >>> from gearlink.core.machines.wide_swing.law import Pneumatic
+        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> without, left = speed_sweep(0.5, law, 0.20080321285140562, np.array([0.5, 1.2]))
         >>> without.round(6).tolist(), left.round(6).tolist()
@@ -140,7 +140,7 @@ def power_peak(product: Callable[[Reals], Reals]) -> float:
     Notes
         pi^3/8 = 3.876 for the harmonic law.
     Example
-        >>> from gearlink.core.machines.wide_swing.law import Pneumatic
+        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(power_peak(lambda k: law.invariants(k)[1] * law.invariants(k)[2]), 12)
         4.608259092935

@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, force
+from gearlink.core.machines.wide_swing.device import Pneumatic, force
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.torques import (
     drive_balancing_ratio,
     inertia_torque_peak,

@@ -26,7 +26,8 @@ from sweeps import examples
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam
-from gearlink.core.machines.wide_swing.law import ElasticLaw, MiddleView, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw, MiddleView
 
 POINT, ANGLE, BEND, EDGE = 1e-14, 1e-14, 1e-13, 1e-13
 CASES = {

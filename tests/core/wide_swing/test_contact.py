@@ -21,7 +21,8 @@ from gearlink.core.machines.wide_swing.cam import (
     middle_radius_estimate,
     start_radius_estimate,
 )
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+from gearlink.core.machines.wide_swing.device import Pneumatic
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 
 CASES = {
     case["id"]: case["outputs_float"]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from oracles.unloading_limits import iterated
 from sweeps import mostly_slow
 
 from gearlink.core.base.errors import NoSolution
@@ -45,14 +46,23 @@ def test_passes_follow_the_contraction(device: Device, swing: float) -> None:
     assert passes == pytest.approx(expected, abs=4)
 
 
+@pytest.mark.parametrize(("ratio", "degrees", "steps"), [(2.5, 120.0, 20), (5.3, 300.0, 10), (4.0, 300.0, 20)])
+def test_iteration_by_brackets(ratio: float, degrees: float, steps: int) -> None:
+    """N settles to 1e-12 in mu; lengths by the cosine rule lose some digits more."""
+    found, swing = legacy_law(Pneumatic(ratio), math.radians(degrees), steps=steps), math.radians(degrees)
+    parameter, passes = iterated(ratio, swing, steps=steps, exponent=1)
+    assert found.energy_parameter == pytest.approx(parameter, rel=1e-10)
+    assert found.passes == passes
+
+
 @pytest.mark.slow
 def test_squared_scale_is_slow_and_fails_beyond_two() -> None:
     swing = math.radians(120.0)
-    slow = legacy_law(Pneumatic(2.5), swing, exponent=2)
-    assert slow.passes > 54
-    assert slow.energy_parameter == pytest.approx(legacy_law(Pneumatic(2.5), swing).energy_parameter, rel=1e-9)
-    with pytest.raises(NoSolution, match=r"no end in 100 passes.*take exponent 1"):
-        legacy_law(Pneumatic(5.3), math.radians(300.0), steps=10, exponent=2)
+    parameter, passes = iterated(2.5, swing, steps=20, exponent=2)
+    assert passes > 54
+    assert parameter == pytest.approx(legacy_law(Pneumatic(2.5), swing).energy_parameter, rel=1e-9)
+    with pytest.raises(ArithmeticError, match="no end in 100 passes"):
+        iterated(5.3, math.radians(300.0), steps=10, exponent=2)
 
 
 def test_no_steps() -> None:

@@ -19,7 +19,8 @@ import pytest
 from oracles.unloading_limits import pendulum_stretch_ratio
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive, OscillatingCam
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 

@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw, reference_inertia
 
 EXPECTED = next(

@@ -17,7 +17,8 @@ from factory import design
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+from gearlink.core.machines.wide_swing.device import Pneumatic
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.oscillating_cam import crank_angle, way_home
 from gearlink.core.machines.wide_swing.oscillating_cam import need_home as way_home_ratio
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderDrive, SliderLaw, fastest_place

@@ -16,7 +16,8 @@ import pytest
 from sweeps import mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.torques import TorsionResponse, acceleration_series, dynamic_coefficient
 
 EXPECTED = next(
@@ -58,7 +59,7 @@ def test_response_by_integrating_the_differential_equation(stiffness: float, dam
     response = TorsionResponse(acceleration_series(lambda k: law.invariants(k)[2]), stiffness, damping)
 
     def rates(k: float, state: np.ndarray) -> list[float]:
-        drive = law.evaluate(min(k, 1.0))[2] - state[0]
+        drive = float(law.invariants(np.array([min(k, 1.0)]))[2][0]) - state[0]
         return [state[1], stiffness**2 * drive - 2.0 * damping * stiffness * state[1]]
 
     run = solve_ivp(rates, (0.0, 1.0), [0.0, 0.0], method="DOP853", rtol=1e-11, atol=1e-12, t_eval=[0.2, 0.5, 0.9, 1.0])
