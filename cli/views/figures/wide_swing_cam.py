@@ -639,13 +639,13 @@ def legend_row(axes: Axes, drawing: Axes) -> None:
 
 def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Torque peaks on the rocker axis over the speed; where it is shaded the device does harm."""
-    from gearlink.core.machines.wide_swing.design import torque_peaks
     from gearlink.core.numerics.extremes import minimum_over
 
     rows: Any = design.table("balance").data[0]
-    least = minimum_over(lambda n: torque_peaks(design, n / design.spec.speed)[1], float(rows[0]), float(rows[-1]))
+    peaks = design.unloading.torque_peaks
+    least = minimum_over(lambda n: peaks(n / design.spec.speed)[1], float(rows[0]), float(rows[-1]))
     speed = np.unique(np.concatenate([rows, np.linspace(rows[0], rows[-1], 241), [least.place]]))
-    without, with_device = torque_peaks(design, speed / design.spec.speed)
+    without, with_device = peaks(speed / design.spec.speed)
     style.curves(axes, "speed [rev/min]", "torque peak [N m]")
     panels.small_ticks(axes)
     axes.plot(speed, without, color=style.RED, linewidth=1.6, label="without device")

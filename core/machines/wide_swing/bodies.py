@@ -16,6 +16,7 @@ import numpy as np
 
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, safely_above
 from gearlink.core.numerics.extremes import minimum_over
+from gearlink.core.parts.cams.checks import over_axis_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.studies.clearance import beside_line, beside_turning_arm
 
@@ -116,8 +117,6 @@ def _drive(design: WideSwingDesign, cam: Axis) -> Iterator[Check]:
     if bar.frame < cam.radius:
         yield from beside("the crank's axis", cam, bar.frame, advice, _ONE_ENDS)
         return
-    from gearlink.core.parts.cams.checks import over_axis_check
-
     room = bar.frame - _disc_radius(design)
     for check in over_axis_check(SHAFT_CLEARANCE, "cam", room, roller, "the crank's axis", advice):
         yield check._replace(name=CHECK)

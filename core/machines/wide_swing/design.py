@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter
@@ -21,6 +21,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing import bodies, codes, remedies
+from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam, middle_radius_estimate, start_radius_estimate
 from gearlink.core.machines.wide_swing.codes import (
     BALANCING,
     CLOSED_CONTOUR,
@@ -35,34 +36,33 @@ from gearlink.core.machines.wide_swing.codes import (
     TRANSITION_ZONE,
     TURNABILITY,
 )
+from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
+from gearlink.core.machines.wide_swing.law import legacy_law
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
+from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, aimed_law, greatest_need, need_home
 from gearlink.core.machines.wide_swing.sizing import (
     ISENTROPIC,
     OF_CYLINDER,
     OF_GRAVITY,
     QUANTITIES,
-    DeviceSize,
     device_table,
     names,
 )
+from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
+from gearlink.core.machines.wide_swing.strokes import AnyCam
+from gearlink.core.machines.wide_swing.torques import FlankImpact, Unloading, flank_impact
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, minimum_over, share_of
 from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
+from gearlink.core.parts.cams.checks import HUB, against_curvature, over_axis_check
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, gear_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam
-    from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
-    from gearlink.core.machines.wide_swing.law import LegacyLaw
-    from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam
-    from gearlink.core.machines.wide_swing.spec import SecondShaft, SwingCam, SwingShaft, WideSwingSpec
-    from gearlink.core.machines.wide_swing.strokes import AnyCam
-    from gearlink.core.machines.wide_swing.torques import FlankImpact
+    from gearlink.core.machines.wide_swing.spec import SecondShaft, SwingCam, WideSwingSpec
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.numerics.periodic import CosineSeries
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
 
@@ -322,8 +322,6 @@ def _shaft_remedy(design: WideSwingDesign) -> str:
 
 def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
     """The cam's arc about the dwells may reach over the rocker's axis."""
-    from gearlink.core.parts.cams.checks import over_axis_check
-
     place, roller = design.section.center_distance, design.section.roller_radius
     for words, cam in design.cams.items():
         sense = -1.0 if design.spec.layout == "twin-rocker" and cam is design.cam else 1.0
@@ -511,43 +509,6 @@ Places: TypeAlias = SimpleNamespace
 """Values by their names."""
 
 
-def of_motion(design: WideSwingDesign) -> Places:
-    """Extremes of the rocker's speed [rad/s] and acceleration [rad/s^2] over the working stroke, cam angles [rad]."""
-    motion = design.motion
-    law, swing, angle, time = motion.law, motion.swing, motion.cycle_angle, motion.working_time
-    curves = {
-        "rocker_speed": lambda phi: swing / time * law.invariants(share_of(phi, angle), 1)[1],
-        "rocker_acceleration": lambda phi: swing / time**2 * law.invariants(share_of(phi, angle), 2)[2],
-    }
-    return Places(**extremes(curves, 0.0, angle, samples=256))
-
-
-def of_pressure(design: WideSwingDesign) -> float:
-    """Cam angle [rad] of the maximum pressure angle on the profile."""
-    # Next to a standstill of a cam that swings itself the ratio of both rates has no digits.
-    found = _greatest(design, lambda k: np.abs(design.cam.pressure_angle(k)))
-    if design.spec.drive is not None:
-        ends = np.abs(design.cam.pressure_angle(np.array([0.0, 1.0])))
-        if ends.max() > found.value:
-            return float(np.argmax(ends)) * design.motion.cycle_angle
-    return found.place * design.motion.cycle_angle
-
-
-def of_curvature(design: WideSwingDesign) -> float | None:
-    """Cam angle [rad] of the minimum radius of a bulging pitch curve on the profile; None where it bulges nowhere."""
-    found = _greatest(design, design.cam.bulge)
-    return found.place * design.motion.cycle_angle if found.value > 0.0 else None
-
-
-def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extreme:
-    """The maximum value over the parts of the stroke in which the roller touches the profile."""
-    stop = 1e-3 if design.spec.drive is not None else 0.0
-    parts = [(max(first, stop), min(last, 1.0 - stop)) for first, last in design.contact_of(design.cam)]
-    parts = list(design.cam.sides(*parts))
-    found = extremes_of_parts([(curve, True)], parts, samples=256)
-    return max((each for (each,) in found), key=lambda each: each.value)
-
-
 def _k(samples: int | None) -> Any:
     count = samples or 100
     rows = row_numbers(samples, count + 1)
@@ -565,15 +526,6 @@ def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
     return force
 
 
-def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
-    """Peaks on the rocker axis without and with the device [N m], over (N,) shares of the design speed."""
-    from gearlink.core.machines.wide_swing.torques import speed_sweep
-
-    losses = design.spec.unloader.residual, design.unloading.size.reserve
-    motion = design.motion
-    return speed_sweep(design.unloading.even_inertia, motion.plain_law, motion.stroke_time, share, *losses)
-
-
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
     k = _k(samples)
     gone = ~design.touches(cam, k)
@@ -589,244 +541,6 @@ def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples
         "curvature_radius": (points.curvature_radius, "mm"),
     }
     return Table.of(name, columns)
-
-
-# What the unloading device of a wide-swing mechanism must bear, and what it leaves to the drive
-
-
-class Unloading:
-    """Size of the device and torques of the shafts, from the design file and the rocker's motion."""
-
-    def __init__(self, spec: WideSwingSpec, motion: Motion, way_back: Callable[[], Extreme] | None = None) -> None:
-        self.spec, self.motion, self._way_back = spec, motion, way_back
-
-    # Size
-
-    @cached_property
-    def size(self) -> DeviceSize:
-        """Lengths, force and energy of the device."""
-        return DeviceSize(self.spec, self.motion)
-
-    @property
-    def _whole(self) -> float:
-        """1 + rho, force of the device over the one that balances the inertia at the design speed."""
-        return 1.0 + self.size.reserve
-
-    @property
-    def force(self) -> float | None:
-        """Force of a pneumatic device, as given or with its reserve [N]."""
-        return self.size.strength if self.spec.unloader.type == "pneumatic" else None
-
-    @property
-    def spring_rate(self) -> float | None:
-        """Rate of a spring, as given or with its reserve [N/mm]."""
-        return self.size.strength if self.spec.unloader.type == "spring" else None
-
-    @cached_property
-    def iteration(self) -> LegacyLaw:
-        """The source's own iteration, for comparison; with a slider over the whole stroke."""
-        from gearlink.core.machines.wide_swing.law import legacy_law
-
-        motion, inertia = self.motion, None if self.spec.slider is None else self.motion.slider.inertia_at
-        return legacy_law(motion.device, motion.swing, inertia, steps=self.spec.iteration_steps)
-
-    @property
-    def iteration_error(self) -> float:
-        """Relative error of the iteration's N."""
-        return float(self.iteration.energy_parameter) / self.motion.law.energy_parameter - 1.0
-
-    # Torque and drive
-
-    @cached_property
-    def power_peak(self) -> float:
-        """max(b c); with a slider max |m b|, m the torque over J_ref gamma/T^2."""
-        from gearlink.core.machines.wide_swing.torques import power_peak
-
-        motion = self.motion
-        return power_peak(lambda k: motion.law.invariants(k, 1)[1] * motion.torque(k))
-
-    @property
-    def drive_torque_peak(self) -> float:
-        """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m].
-
-        M_dr = J gamma^2 max|m b|/(T^2 phi_ud)
-        """
-        motion = self.motion
-        scale = motion.inertia * motion.swing**2 / (motion.stroke_time**2 * motion.device_angle)
-        return scale * self.power_peak
-
-    @property
-    def drive_balancing_ratio(self) -> float | None:
-        """K_y2 at the design speed; None where no torque is left."""
-        share = self._shaft.linkage_share
-        left = abs(self.size.reserve) + self.spec.unloader.residual + share
-        return (1.0 + share) / left if left > 0.0 else None
-
-    @cached_property
-    def _torque_series(self) -> CosineSeries:
-        from gearlink.core.machines.wide_swing.torques import acceleration_series
-
-        with at_key("shaft"):
-            return acceleration_series(self.motion.torque)
-
-    @property
-    def dynamic_coefficient(self) -> float:
-        """K_d, torque with the drive's elasticity over the calculated torque."""
-        return self.dynamic_coefficients([1.0])[0]
-
-    def dynamic_coefficients(self, speed_ratios: Iterable[float]) -> list[float]:
-        """K_d over n/n0; not a number where a slow stroke finds the drive rigid.
-
-        Raises
-            NoSolution - at the design speed, where the drive is rigid to it
-        """
-        from gearlink.core.machines.wide_swing.torques import STIFFEST, dynamic_coefficient, peak_of
-
-        shaft, found = self._shaft, []
-        calculated = peak_of(self._torque_series)
-        for ratio in speed_ratios:
-            stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time / ratio
-            if ratio < 1.0 and stiffness > STIFFEST:
-                found.append(math.nan)
-                continue
-            with at_key("shaft"):
-                found.append(dynamic_coefficient(self._torque_series, stiffness, shaft.damping, calculated)[0])
-        return found
-
-    @property
-    def left_share(self) -> float:
-        """Torque with the device over that without it in the working stroke at the design speed, negative where the
-        device is the stronger.
-
-        sgn(g)(|g| + f q^2), g = 1 - (1 + rho) q^2, q = T/T0, T0 the time of the shorter stroke
-        """
-        square = (self.motion.working_time / self.motion.stroke_time) ** 2
-        left = 1.0 - self._whole * square
-        return math.copysign(abs(left) + self.spec.unloader.residual * square, left if left > 0.0 else -1.0)
-
-    def history(self) -> Table:
-        """Torques of rocker shaft and main shaft over the working stroke and the rest after it.
-
-        M_e'' + 2 zeta w M_e' + w^2 M_e = w^2 (share M) from rest at the start; on the main shaft times gamma b/phi_ud
-
-        Notes
-            The first natural frequency is that of the mean inertia. What the stroke before has left is not counted.
-        """
-        from gearlink.core.machines.wide_swing.torques import TorsionResponse
-
-        motion, shaft, time = self.motion, self._shaft, self.motion.working_time
-        stroke = math.degrees(motion.cycle_angle)
-        rest = stroke if self.spec.cycle is None else self.spec.cycle.lengths[1]
-        angle = np.arange(math.floor((stroke + rest) * (1.0 + 1e-12)) + 1.0)
-        inside = angle <= stroke * (1.0 + 1e-12)
-        k = np.minimum(angle[inside] / stroke, 1.0)
-        with at_key("shaft"):
-            response = TorsionResponse(
-                self._torque_series, 2.0 * math.pi * shaft.natural_frequency * time, shaft.damping
-            )
-        scale, share = motion.inertia * motion.swing / time**2, self.left_share
-        rigid, elastic, ratio = (np.zeros_like(angle) for _ in range(3))
-        rigid[inside] = scale * motion.torque(k)
-        elastic[inside], elastic[~inside] = response(k), response.after(angle[~inside] / stroke)
-        ratio[inside] = motion.swing / motion.cycle_angle * motion.law.invariants(k, 1)[1]
-        torques = {"": rigid, "_balanced": share * rigid, "_elastic": share * scale * elastic}
-        columns = {
-            "time": (angle / (6e-3 * self.spec.speed), "ms"),
-            "cam_angle": (angle, "deg"),
-            **{f"rocker_torque{end}": (values, "N m") for end, values in torques.items()},
-            **{f"drive_torque{end}": (values * ratio, "N m") for end, values in torques.items()},
-        }
-        return Table.of("history", columns)
-
-    @property
-    def _shaft(self) -> SwingShaft:
-        if self.spec.shaft is None:
-            raise MissingSection("this needs the section shaft: natural_frequency, damping", key="shaft")
-        return self.spec.shaft
-
-    @property
-    def even_inertia(self) -> float:
-        """Inertia of a rocker alone that would need the same device [kg m^2]."""
-        motion = self.motion
-        if self.spec.slider is None:
-            return motion.inertia
-        return motion.reference_inertia * motion.slider.energy_parameter / motion.plain_law.energy_parameter
-
-    @property
-    def harmful_speed(self) -> float:
-        """Speed up to which the device raises the torque, n0 sqrt((1 + rho + f)/2) [rev/min]."""
-        return self.spec.speed * math.sqrt(0.5 * (self._whole + self.spec.unloader.residual))
-
-    # Force closure
-
-    @cached_property
-    def way_back(self) -> Extreme | None:
-        """The place where an oscillating cam that swings home asks most of the device; None with no such way back."""
-        try:
-            return None if self._way_back is None else self._way_back()
-        except NoSolution:  # of a cam that cannot be, which fails in checks of its own
-            return None
-
-    @property
-    def need(self) -> float:
-        """k_b, greatest acceleration of the rocker on its way back over that of the stroke; 1 where they are alike."""
-        return 1.0 if self.way_back is None else self.way_back.value
-
-    @property
-    def lift_off_speed(self) -> float:
-        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b); 0 where f is more [rev/min]."""
-        whole = self._whole - self.spec.unloader.residual
-        return self.spec.speed * math.sqrt(whole / self.need) if whole > 0.0 else 0.0
-
-    def contact_force(
-        self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0, need: float | Reals = 1.0
-    ) -> Reals:
-        """Force of the roller on a cam, along their normal.
-
-        F = J gamma |c| ((1 + rho) - k_b (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a instead of |c|
-
-        Parameters
-            cam : WideSwingCam or OscillatingCam
-            k : (N,) array - fractions of the stroke, mid-swing left out
-            speed_ratio : float or (N,) array - n/n0
-            need : float or (N,) array - k_b, the rocker's acceleration over that of the stroke
-        Returns
-            force : (N,) array [N] - positive where the profile is pressed, in run-up and run-out; negative where the
-                roller leaves it
-        Notes
-            Friction is left out. In run-up the device is stronger than the inertia and the cam holds the rocker back;
-            in run-out the inertia is weaker than the device and the cam pushes. T0 is the time of the shorter of two
-            strokes, T that of the cam's own. With a slider the force reverses at mid-swing, the roller where the
-            rocker is fastest: between the two the force is negative.
-        """
-        torque = self.motion.torque(k) * np.where(k < cam.middle, 1.0, -1.0)
-        force: Reals = self._pressing(cam, speed_ratio, need) * torque / np.cos(cam.pressure_angle(k))
-        return force
-
-    def _pressing(self, cam: AnyCam, speed_ratio: Any, need: Any) -> Any:
-        """Force along the normal by torque over J gamma/T^2 and cos delta [N]."""
-        motion = self.motion
-        speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
-        scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
-        return scale * (self.size.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0))
-
-    def even_contact_force(self, cam: WideSwingCam) -> float:
-        """Maximum force of the roller on a cam that turns evenly, at the design speed [N]."""
-        pressing: float = self._pressing(cam, 1.0, 1.0)
-        most, least = cam.pressing
-        return max(pressing * most.value, pressing * least.value)
-
-    def dwell_force(self, cams: Iterable[AnyCam]) -> float:
-        """Maximum force of a roller on its cam during the rests, when the cam bears the whole device [N].
-
-        F = (1 + rho) J gamma c(0)/(T0^2 r cos delta0)
-
-        Parameters
-            cams : of both strokes
-        Returns
-            force : float [N] - it also acts at the ends of the strokes of a machine that barely turns
-        """
-        return max(float(self.contact_force(cam, np.array([0.0, 1.0]), 0.0).max()) for cam in cams)
 
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
@@ -914,8 +628,6 @@ class WideSwingDesign(Design):
         return Unloading(self.spec, self.motion, None if self.spec.drive is None else self._way_back)
 
     def _way_back(self) -> Extreme:
-        from gearlink.core.machines.wide_swing.oscillating_cam import greatest_need
-
         return greatest_need(self.oscillating_cam)
 
     @property
@@ -967,8 +679,6 @@ class WideSwingDesign(Design):
         return self._even("twin-cam", self.motion.return_angle, None, "return")
 
     def _even(self, layout: Layout, angle: float, rocker_radius: float | None, phase: str) -> WideSwingCam:
-        from gearlink.core.machines.wide_swing.cam import WideSwingCam
-
         section, law = self.section, self.motion.plain_law
         lengths = section.center_distance, section.roller_radius, rocker_radius
         if self.spec.cycle is None:
@@ -980,15 +690,11 @@ class WideSwingDesign(Design):
     @cached_property
     def cycle(self) -> WholeCycle:
         """Both cams as closed contours over a whole revolution."""
-        from gearlink.core.machines.wide_swing.cycle import WholeCycle
-
         return WholeCycle(self)
 
     @cached_property
     def oscillating_cam(self) -> OscillatingCam:
         """The cam on the rocker of a crank-rocker."""
-        from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, aimed_law
-
         section, motion, drive = self.section, self.motion, self.motion.drive
         law = motion.plain_law if self.spec.slider is None else aimed_law(motion.slider, drive)
         with at_key("drive"):
@@ -997,9 +703,6 @@ class WideSwingDesign(Design):
     @cached_property
     def slider_cam(self) -> WideSwingCam:
         """The cam of a rocker that drives a slider, which passes the line of centres where it is fastest."""
-        from gearlink.core.machines.wide_swing.cam import WideSwingCam
-        from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
-
         section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
         with at_key("cycle_angle"):
             aimed = AimedLaw(law, fastest_place(law))
@@ -1011,20 +714,11 @@ class WideSwingDesign(Design):
 
         return ParallelShafts(self)
 
-    def check_cam_clearance(self) -> Iterator[Check]:
-        """GL541."""
-
-        return cam_clearance(self)
-
     @property
     def aimed_cam(self) -> AnyCam:
         """The cam of a rocker with a slider, whose roller passes the line of centres beside mid-swing."""
-        return self.slider_cam if self.spec.drive is None else self._aimed_with_slider
-
-    @property
-    def _aimed_with_slider(self) -> OscillatingCam:
-        _ = self.motion.slider  # refused without one
-        return self.oscillating_cam
+        _ = self.section, self.motion.slider  # refused without one
+        return self.slider_cam if self.spec.drive is None else self.oscillating_cam
 
     @property
     def cams(self) -> dict[str, AnyCam]:
@@ -1067,16 +761,12 @@ class WideSwingDesign(Design):
     @cached_property
     def start_radius_estimate(self) -> float:
         """R of (23) [mm]."""
-        from gearlink.core.machines.wide_swing.cam import start_radius_estimate
-
         with self._profile_key:
             return start_radius_estimate(self.even_cam)
 
     @cached_property
     def middle_radius_estimate(self) -> float:
         """R of (27) [mm]."""
-        from gearlink.core.machines.wide_swing.cam import middle_radius_estimate
-
         with self._profile_key:
             return middle_radius_estimate(self.even_cam)
 
@@ -1129,45 +819,59 @@ class WideSwingDesign(Design):
 
     def _force_home(self, k: Reals) -> Reals:
         """The same on the way home, where an oscillating cam stands as at k."""
-        from gearlink.core.machines.wide_swing.oscillating_cam import need_home
-
         cam = self.oscillating_cam
         return self.unloading.contact_force(cam, k, need=need_home(cam, k))
 
     @cached_property
     def impact(self) -> FlankImpact:
         """The blow where the roller changes flanks."""
-        from gearlink.core.machines.wide_swing.torques import FlankImpact
-
         return FlankImpact(self)
 
     @property
     def end_position_gain(self) -> float:
-        """Way at `output_radius` over an error of the profile, in the rests."""
-        from gearlink.core.machines.wide_swing.torques import end_position_gain
+        """Way at `output_radius` over an error of the profile in the rests, the greater one of both ends of the swing.
 
-        return end_position_gain(self)
-
-    def check_flank_impact(self) -> Iterator[Check]:
-        """GL542."""
-        from gearlink.core.machines.wide_swing.torques import flank_impact
-
-        return flank_impact(self)
+        (R/r) rho/(a sin phi_e): at rest the roller stands on the arc, rho^2 = a^2 + r^2 - 2 a r cos phi_e
+        """
+        cam, radius = self.cam, self.spec.output_radius
+        assert radius is not None, "asked for where the file has it"
+        arms = cam.rocker_radius * cam.center_distance
+        return max((radius * cam.pitch_radius(end) / (arms * math.sin(end)) for end in cam.ends), key=abs)
 
     @cached_property
     def extremes(self) -> Places:
-        """Extremes of the rocker's speed and acceleration over the working stroke, at the design speed."""
-        return of_motion(self)
+        """Extremes of the rocker's speed [rad/s] and acceleration [rad/s^2] over the working stroke; angles in rad."""
+        motion = self.motion
+        law, swing, angle, time = motion.law, motion.swing, motion.cycle_angle, motion.working_time
+        curves = {
+            "rocker_speed": lambda phi: swing / time * law.invariants(share_of(phi, angle), 1)[1],
+            "rocker_acceleration": lambda phi: swing / time**2 * law.invariants(share_of(phi, angle), 2)[2],
+        }
+        return Places(**extremes(curves, 0.0, angle, samples=256))
 
     @cached_property
     def pressure_place(self) -> float:
         """Cam angle of the maximum pressure angle where the roller touches the profile [rad]."""
-        return of_pressure(self)
+        # Next to a standstill of a cam that swings itself the ratio of both rates has no digits.
+        found = self._greatest(lambda k: np.abs(self.cam.pressure_angle(k)))
+        if self.spec.drive is not None:
+            ends = np.abs(self.cam.pressure_angle(np.array([0.0, 1.0])))
+            if ends.max() > found.value:
+                return float(np.argmax(ends)) * self.motion.cycle_angle
+        return found.place * self.motion.cycle_angle
 
     @cached_property
     def curvature_place(self) -> float | None:
-        """Cam angle of the minimum radius of a bulging pitch curve where the roller touches it [rad]."""
-        return of_curvature(self)
+        """Cam angle of the minimum radius of a bulging pitch curve where the roller touches it [rad]; None without."""
+        found = self._greatest(self.cam.bulge)
+        return found.place * self.motion.cycle_angle if found.value > 0.0 else None
+
+    def _greatest(self, curve: Callable[[Reals], Reals]) -> Extreme:
+        """The maximum value over the parts of the stroke in which the roller touches the profile."""
+        stop = 1e-3 if self.spec.drive is not None else 0.0
+        parts = [(max(first, stop), min(last, 1.0 - stop)) for first, last in self.contact_of(self.cam)]
+        found = extremes_of_parts([(curve, True)], self.cam.sides(*parts), samples=256)
+        return max((each for (each,) in found), key=lambda each: each.value)
 
     @cached_property
     def dwell_force(self) -> float:
@@ -1250,11 +954,8 @@ class WideSwingDesign(Design):
 
     @cached_property
     def _balance(self) -> Table:
-        from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio
-
         share, spec = _speed_shares(), self.spec
-        losses = spec.unloader.residual, self.unloading.size.reserve
-        without, left = torque_peaks(self, share)
+        without, left = self.unloading.torque_peaks(share)
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = without / left
         columns = {
@@ -1264,14 +965,12 @@ class WideSwingDesign(Design):
             "ratio": (ratio, "1"),
         }
         if spec.shaft is not None:
-            columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
+            columns["drive_ratio"] = (self.unloading.balancing_ratios(share), "1")
             columns["dynamic_coefficient"] = (self.unloading.dynamic_coefficients(share.tolist()), "1")
         return Table.of("balance", columns)
 
     def table_iteration(self, _samples: int | None = None) -> Table:
         """Steps of the source's iteration against its error; with a slider its passes; two marches add up to 1."""
-        from gearlink.core.machines.wide_swing.law import legacy_law
-
         if self.spec.slider is not None:
             heads = ("pass", "energy_parameter", "mu", "displacement_forward", "displacement_backward")
             passes = zip(*self.unloading.iteration.rows, strict=True)
@@ -1459,8 +1158,6 @@ class WideSwingDesign(Design):
 
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402: roller against the curvature where it touches the profile, and against the source's (27)."""
-        from gearlink.core.parts.cams.checks import against_curvature
-
         roller = self.section.roller_radius
         for words, cam in _judged(self):
             if not self.has_zone(cam):
@@ -1499,8 +1196,6 @@ class WideSwingDesign(Design):
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
-        from gearlink.core.parts.cams.checks import HUB
-
         section, shaft = self.section, self.section.shaft_radius
         yield from _over_rocker_axis(self)
         if shaft == 0.0:
@@ -1588,8 +1283,6 @@ class WideSwingDesign(Design):
 
     def check_closed_contour(self) -> Iterator[Check]:
         """GL512: the roller goes round each closed contour without a cut, and the contour does not cross itself."""
-        from gearlink.core.parts.cams.checks import HUB
-
         shaft, clearance = self.section.shaft_radius, self.section.free_clearance
         for words, cam in _contours(self):
             cut, least = cam.cut, cam.least_radius
@@ -1625,6 +1318,7 @@ class WideSwingDesign(Design):
                 yield CLOSED_CONTOUR.check("pass", what, least, shaft, "mm")
 
     check_profile_planes, check_body_clearance = profile_planes, bodies.body_clearance
+    check_flank_impact, check_cam_clearance = flank_impact, cam_clearance
 
     ways = remedies.WAYS
     requirements = Design.requirements | {"swing", "operating_speed_min"}

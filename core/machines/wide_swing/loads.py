@@ -11,7 +11,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -622,9 +623,6 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def machine(self) -> Machine:
         """Everything, with the device."""
-        from dataclasses import replace
-        from functools import partial
-
         self._require_turn()
         self._require_own_directions()
         for stroke in self.strokes:

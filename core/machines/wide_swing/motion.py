@@ -8,18 +8,29 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.machines.wide_swing.device import (
+    Device,
+    DeviceGeometry,
+    Gravity,
+    Pneumatic,
+    Spring,
+    least_pivot_ratio_pneumatic,
+    least_pivot_ratio_spring,
+    least_pivot_ratio_spring_material,
+)
+from gearlink.core.machines.wide_swing.law import ElasticLaw
+from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
 from gearlink.core.machines.wide_swing.remedies import drive_repair, slider_repair, with_number
+from gearlink.core.machines.wide_swing.sizing import free_stretch
+from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw, reference_inertia
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from gearlink.core.machines.wide_swing.device import Device
-    from gearlink.core.machines.wide_swing.law import ElasticLaw
-    from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
-    from gearlink.core.machines.wide_swing.slider import SliderLaw
     from gearlink.core.machines.wide_swing.spec import GravityDevice, SwingSlider, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
-
 
 MOST_STRETCH = 2.0
 """Stretch over closed length that a spring of steel bears at most."""
@@ -41,8 +52,6 @@ class Motion:
     @cached_property
     def device(self) -> Device:
         """The unloading device, without dimension."""
-        from gearlink.core.machines.wide_swing.device import Gravity, Pneumatic, Spring
-
         unloader = self.spec.unloader
         if unloader.type == "gravity":
             return Gravity()
@@ -62,9 +71,6 @@ class Motion:
     @cached_property
     def stretch_ratio(self) -> float:
         """eps of a spring, mounting stretch over stroke: as given, or from its free length."""
-        from gearlink.core.machines.wide_swing.device import DeviceGeometry, Pneumatic
-        from gearlink.core.machines.wide_swing.sizing import free_stretch
-
         unloader = self.spec.unloader
         assert unloader.type == "spring", "a cylinder has no stretch"
         if unloader.free_length is None:
@@ -76,34 +82,28 @@ class Motion:
     @property
     def usual_pivot_ratio(self) -> float:
         """Minimum pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
-        from gearlink.core.machines.wide_swing.device import least_pivot_ratio_pneumatic
-
         return self.min_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
 
     @cached_property
     def min_pivot_ratio(self) -> float | None:
         """Minimum pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
-        from gearlink.core.machines.wide_swing import device
-
         unloader = self.spec.unloader
         if unloader.type == "gravity":
             return None
         with at_key("unloader"):
             if unloader.type == "pneumatic":
-                return device.least_pivot_ratio_pneumatic(self.swing, unloader.extension_ratio)
+                return least_pivot_ratio_pneumatic(self.swing, unloader.extension_ratio)
             fittings, stretch, arm = unloader.end_fittings, self.stretch_ratio, unloader.arm
             if unloader.closed_length is not None:
-                return device.least_pivot_ratio_spring(self.swing, stretch, arm, unloader.closed_length, fittings)
+                return least_pivot_ratio_spring(self.swing, stretch, arm, unloader.closed_length, fittings)
             if unloader.stretch_capacity is not None:
                 capacity = unloader.stretch_capacity
-                return device.least_pivot_ratio_spring_material(self.swing, stretch, capacity, fittings / arm)
+                return least_pivot_ratio_spring_material(self.swing, stretch, capacity, fittings / arm)
         return None
 
     @property
     def least_ratio_of_steel(self) -> float:
         """Minimum pivot ratio between whose pins a spring of steel finds room, whatever its length."""
-        from gearlink.core.machines.wide_swing.device import least_pivot_ratio_spring_material
-
         unloader = self.spec.unloader
         assert unloader.type == "spring", "a cylinder has a length"
         fittings = unloader.end_fittings / unloader.arm
@@ -115,8 +115,6 @@ class Motion:
     @cached_property
     def plain_law(self) -> ElasticLaw:
         """The law of motion that the device gives a rocker alone."""
-        from gearlink.core.machines.wide_swing.law import ElasticLaw
-
         device = self.device
         with at_key("swing"):
             return ElasticLaw(device, self.swing)
@@ -127,8 +125,6 @@ class Motion:
         return self._slider_with(self.rocker_inertia)
 
     def _slider_with(self, inertia: float) -> SliderLaw:
-        from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
-
         section = self._slider_section
         with at_key("slider.rod"):
             drive = SliderDrive(section.crank, section.rod, math.radians(section.middle_angle), section.offset)
@@ -148,8 +144,6 @@ class Motion:
         return self.spec.slider
 
     def _inertia_with(self, inertia: float, stroke: float) -> tuple[float, float]:
-        from gearlink.core.machines.wide_swing.slider import reference_inertia
-
         return reference_inertia(inertia, self._slider_section.mass, stroke, self.swing)
 
     @property
@@ -268,9 +262,6 @@ class Motion:
     @cached_property
     def drive(self) -> CrankRockerDrive:
         """The crank-rocker that carries the cam; its refusal names the length to change."""
-        from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
-        from gearlink.core.parts.linkages.fourbar.position import FourBar
-
         section = self.spec.drive
         if section is None:
             raise MissingSection("this needs the section drive: crank, coupler, rocker, frame", key="drive")
@@ -329,15 +320,11 @@ class Motion:
         return self._time_of(self.cycle_angle)
 
     def _time_of(self, angle: float) -> float:
-        from gearlink.core.machines.wide_swing.torques import stroke_time
-
-        return stroke_time(angle, self.spec.speed * 2.0 * math.pi / 60.0)
+        return angle / (self.spec.speed * 2.0 * math.pi / 60.0)
 
 
 def _only_root(excess: Callable[[float], float], near: float) -> float:
     """Root of a function that is negative below it and positive above."""
-    from gearlink.core.numerics.roots import bracketed_root
-
     while excess(near) <= 0.0:
         near *= 2.0
     while excess(low := 0.5 * near) > 0.0:

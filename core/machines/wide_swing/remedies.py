@@ -6,10 +6,16 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
+import numpy as np
+
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import REFUSAL, at_least, at_most, down, either, thinner, up
 from gearlink.core.base.results import keep, kept
 from gearlink.core.base.spec_paths import changed, number_at
+from gearlink.core.machines.wide_swing.bodies import device_room
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.cams.checks import HUB
+from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy
@@ -61,8 +67,6 @@ def reserve(residual: float, margin: float, need: float = 1.0) -> float:
 
 def center_distance(design: WideSwingDesign) -> float:
     """Centre distance at which the rollers leave the cam shaft its hub [mm]."""
-    from gearlink.core.parts.cams.checks import HUB
-
     section = design.section
     needed = HUB * section.shaft_radius + section.roller_radius
     if section.rocker_radius is not None:
@@ -103,8 +107,6 @@ def _shaft(design: WideSwingDesign) -> Iterator[Change]:
 
 def _longer_arm(design: WideSwingDesign) -> Iterator[Change]:
     """The arm that takes the device away from the rocker's axis."""
-    from gearlink.core.machines.wide_swing.bodies import device_room
-
     unloader = design.spec.unloader
     if unloader.type == "gravity":
         return
@@ -194,8 +196,6 @@ def _pressure_holds(trial: WideSwingDesign) -> bool:
 
 def _pressure_somewhere(cam: AnyCam) -> float:
     """Largest pressure angle at a few places well before mid-swing [rad], infinite where the pitch curve has a loop."""
-    import numpy as np
-
     try:
         end = 0.5 - 1.2 * cam.transition_zone_estimate
     except NoSolution:
@@ -261,10 +261,6 @@ def even_middle_angle(section: SwingSlider) -> float | None:
 
     d2s/dphi2 = 0
     """
-    import numpy as np
-
-    from gearlink.core.numerics.roots import bracketed_root
-    from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
     def bend(angle: float) -> float:
         return float(slider_sweep(angle - 0.5 * math.pi, section.crank, section.rod, section.offset, 2)[2])

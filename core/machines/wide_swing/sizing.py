@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
@@ -72,13 +74,12 @@ class DeviceSize:
 
         P = N J gamma^2/(2 r_d T^2), c = P/r_d; m = kappa J_0/(g s - kappa s^2), kappa = N gamma^2/(2 T^2)
         """
-        from gearlink.core.machines.wide_swing import device
-
         motion, unloader = self.motion, self.spec.unloader
         if unloader.type == "gravity":
             return motion.pendulum_mass(1.0)
-        rule = device.force if unloader.type == "pneumatic" else device.spring_rate
-        return rule(motion.law.energy_parameter, motion.inertia, motion.swing, unloader.arm, motion.stroke_time)
+        work = motion.law.energy_parameter * motion.inertia * motion.swing**2
+        force = work / (2.0e-3 * unloader.arm * motion.stroke_time**2)
+        return force if unloader.type == "pneumatic" else force / unloader.arm
 
     @cached_property
     def reserve(self) -> float:
@@ -247,8 +248,6 @@ class DeviceSize:
 
     def table(self, k: Reals) -> Table:
         """What the device does over the stroke, and what it leaves: torques in the sense of the stroke."""
-        import numpy as np
-
         motion, g = self.motion, self._geometry
         sine, cosine = motion.law.pendulum(k)
         side = np.where(k < self._middle, 1.0, -1.0)
@@ -285,8 +284,6 @@ class DeviceSize:
 
 def device_table(design: WideSwingDesign, samples: int | None = None) -> Table:
     """Length, force and torque of the device over the stroke, and what it leaves of the inertia torque."""
-    import numpy as np
-
     count = samples or 100
     rows = row_numbers(samples, count + 1)
     return design.unloading.size.table(np.arange(rows.start, rows.stop) / count)

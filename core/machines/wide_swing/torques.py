@@ -10,179 +10,295 @@ scale y'' + 2 zeta W y' + W^2 y = W^2 c(k) with W = w T and derivatives with res
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.machines.wide_swing.law import ElasticLaw
+from gearlink.core.machines.wide_swing.codes import FLANK_IMPACT
+from gearlink.core.machines.wide_swing.law import LegacyLaw, legacy_law
+from gearlink.core.machines.wide_swing.sizing import DeviceSize
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.extremes import Extreme, maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_coefficients, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Check
+    from gearlink.core.machines.wide_swing.cam import WideSwingCam
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.motion import Motion
+    from gearlink.core.machines.wide_swing.spec import SwingShaft, WideSwingSpec
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 
-def stroke_time(cycle_angle: float, speed: float) -> float:
-    """Time of one stroke.
-
-    T = phi_ud/omega
-
-    Parameters
-        cycle_angle : float [rad] - phi_ud
-        speed : float [rad/s] - of the cam
-    Returns
-        T : float [s]
-    Raises
-        NoSolution - when one is not positive
-    Example
-        >>> round(stroke_time(math.radians(120), 2 * math.pi * 1.66), 15)
-        0.200803212851406
-
-    Source
-        wide-swing dissertation, chapter 2
-    """
-    if not (0.0 < cycle_angle < math.inf and 0.0 < speed < math.inf):
-        raise NoSolution(
-            f"cycle angle {math.degrees(cycle_angle):.4g} deg and speed {speed * 30.0 / math.pi:.4g} rev/min: "
-            "both must be above 0"
-        )
-    return cycle_angle / speed
+# What the device must bear, and what it leaves to the drive
 
 
-def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
-    """Largest inertia torque of the rocker over a stroke.
+class Unloading:
+    """Size of the device and torques of the shafts, from the design file and the rocker's motion."""
 
-    M_in = J gamma C/T^2
+    def __init__(self, spec: WideSwingSpec, motion: Motion, way_back: Callable[[], Extreme] | None = None) -> None:
+        self.spec, self.motion, self._way_back = spec, motion, way_back
 
-    Parameters
-        inertia : float [kg m^2] - J
-        law : ElasticLaw
-        time : float [s] - T of one stroke
-    Returns
-        torque : float [N m]
-    Raises
-        NoSolution - when inertia or time is not positive
-    Example
-        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> round(inertia_torque_peak(0.5, law, 0.20080321285140562), 9)
-        113.235429407
+    # Size
 
-    Source
-        wide-swing dissertation (1)
-    """
-    if not (0.0 < inertia < math.inf and 0.0 < time < math.inf):
-        raise NoSolution(f"moment of inertia {inertia:.4g} kg m^2 and time {time:.4g} s must both be above 0")
-    return inertia * law.swing * law.acceleration_peak / time**2
+    @cached_property
+    def size(self) -> DeviceSize:
+        """Lengths, force and energy of the device."""
+        return DeviceSize(self.spec, self.motion)
 
+    @property
+    def _whole(self) -> float:
+        """1 + rho, force of the device over the one that balances the inertia at the design speed."""
+        return 1.0 + self.size.reserve
 
-def _left(speed_ratio: Reals, residual_fraction: float, reserve: float) -> Reals:
-    """Torque that is left on the rocker axis, as a part of the inertia torque at n0."""
-    if residual_fraction < 0.0 or reserve <= -1.0 or bool(np.any(speed_ratio < 0.0)):
-        raise NoSolution("speeds and the residual fraction must be 0 or more, the reserve above -1")
-    left: Reals = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0) - reserve) + residual_fraction
-    return left
+    @property
+    def force(self) -> float | None:
+        """Force of a pneumatic device, as given or with its reserve [N]."""
+        return self.size.strength if self.spec.unloader.type == "pneumatic" else None
 
+    @property
+    def spring_rate(self) -> float | None:
+        """Rate of a spring, as given or with its reserve [N/mm]."""
+        return self.size.strength if self.spec.unloader.type == "spring" else None
 
-def speed_sweep(
-    inertia: float,
-    law: ElasticLaw,
-    time: float,
-    speed_ratio: Reals,
-    residual_fraction: float = 0.0,
-    reserve: float = 0.0,
-) -> tuple[Reals, Reals]:
-    """Torque peaks on the rocker axis with and without the device over the speed.
+    @cached_property
+    def iteration(self) -> LegacyLaw:
+        """The source's own iteration, for comparison; with a slider over the whole stroke."""
+        motion, inertia = self.motion, None if self.spec.slider is None else self.motion.slider.inertia_at
+        return legacy_law(motion.device, motion.swing, inertia, steps=self.spec.iteration_steps)
 
-    M_in = J gamma C/T^2, M_1 = M_in/K_y1, K_y1 = K_y2 of `drive_balancing_ratio` with g = 0
+    @property
+    def iteration_error(self) -> float:
+        """Relative error of the iteration's N."""
+        return float(self.iteration.energy_parameter) / self.motion.law.energy_parameter - 1.0
 
-    Parameters
-        inertia : float [kg m^2] - J
-        law : ElasticLaw
-        time : float [s] - T0 of one stroke at the design speed
-        speed_ratio : (N,) array - n/n0
-        residual_fraction, reserve : float - f and rho of `drive_balancing_ratio`
-    Returns
-        without, with : (N,) arrays [N m] - peaks
-    Raises
-        NoSolution - when inertia or time is not positive, or a speed or f is negative
-    Example
-        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> without, left = speed_sweep(0.5, law, 0.20080321285140562, np.array([0.5, 1.2]))
-        >>> without.round(6).tolist(), left.round(6).tolist()
-        ([28.308857, 163.059018], [84.926572, 49.823589])
+    # Torque and drive
 
-    Source
-        wide-swing dissertation, chapter 5; own derivation
-    """
-    design = inertia_torque_peak(inertia, law, time)
-    return design * speed_ratio**2, design * _left(speed_ratio, residual_fraction, reserve)
+    @cached_property
+    def power_peak(self) -> float:
+        """max(b c), pi^3/8 = 3.876 for the harmonic law; with a slider max |m b|, m the torque over J_ref gamma/T^2."""
+        motion = self.motion
 
+        def power(k: Reals) -> Reals:
+            return np.abs(motion.law.invariants(k, 1)[1] * motion.torque(k))
 
-def power_peak(product: Callable[[Reals], Reals]) -> float:
-    """Largest product of velocity invariant and torque over J gamma/T^2: the peak of the power of the inertia load.
+        return maximum_over(power, 0.0, 1.0, samples=256).value
 
-    max |b m|, m = c of a rocker alone
+    @property
+    def drive_torque_peak(self) -> float:
+        """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m].
 
-    Parameters
-        product : b m over fractions of the stroke
-    Returns
-        peak : float
-    Notes
-        pi^3/8 = 3.876 for the harmonic law.
-    Example
-        >>> from gearlink.core.machines.wide_swing.device import Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> round(power_peak(lambda k: law.invariants(k)[1] * law.invariants(k)[2]), 12)
-        4.608259092935
-    """
-    return maximum_over(lambda k: np.abs(product(k)), 0.0, 1.0, samples=256).value
+        M_dr = J gamma^2 max|m b|/(T^2 phi_ud)
+        """
+        motion = self.motion
+        scale = motion.inertia * motion.swing**2 / (motion.stroke_time**2 * motion.device_angle)
+        return scale * self.power_peak
 
+    def _left(self, speed_ratio: Reals) -> Reals:
+        """Torque that is left on the rocker axis over n/n0, as a part of the inertia torque at n0."""
+        left: Reals = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0) - self.size.reserve)
+        return left + self.spec.unloader.residual
 
-def drive_balancing_ratio(
-    speed_ratio: Reals, linkage_fraction: float, residual_fraction: float = 0.0, reserve: float = 0.0
-) -> Reals:
-    """How many times the device lowers the torque on the cam shaft.
+    def torque_peaks(self, speed_ratio: Reals) -> tuple[Reals, Reals]:
+        """Torque peaks on the rocker axis without and with the device, over n/n0 [N m].
 
-    K_y2 = n^2 (1 + g)/(|n^2 - (1 + rho) n0^2| + f n0^2 + g n^2)
+        M_in = J gamma C/T^2, M_1 = M_in/K_y1, K_y1 = K_y2 of `balancing_ratios` with g = 0
 
-    Parameters
-        speed_ratio : (N,) array - n/n0, 0 or more
-        linkage_fraction : float - g, torque of the links that the device does not unload, as a part of the
-            rocker's inertia torque on the same shaft and at the same speed
-        residual_fraction : float - f, what friction, force error and linkage inertia leave at n0, as a part of
-            the inertia torque there; 1/4.6 and 1/3.4 were measured
-        reserve : float - rho, force of the device above the one that balances at n0, as a share of it
-    Returns
-        ratio : (N,) array - infinite at n0 when f = g = rho = 0
-    Raises
-        NoSolution - when a speed or g is negative
-    Notes
-        Assumes that both peaks fall together, so it is the minimum favourable case. g = 0 gives the ratio on the rocker
-        axis: below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
-    Example
-        >>> drive_balancing_ratio(np.array([1.0]), 0.25).tolist()
-        [5.0]
+        Source
+            wide-swing dissertation (1) and chapter 5; own derivation
+        """
+        motion = self.motion
+        design = self.even_inertia * motion.swing * motion.plain_law.acceleration_peak / motion.stroke_time**2
+        return design * speed_ratio**2, design * self._left(speed_ratio)
 
-    Source
-        wide-swing dissertation, chapter 5; own derivation
-    """
-    if linkage_fraction < 0.0:
-        raise NoSolution("the linkage fraction must be 0 or more")
-    square = speed_ratio**2
-    left = _left(speed_ratio, residual_fraction, reserve) + linkage_fraction * square
-    with np.errstate(divide="ignore"):
-        result: Reals = square * (1.0 + linkage_fraction) / left
-    return result
+    def balancing_ratios(self, speed_ratio: Reals) -> Reals:
+        """How many times the device lowers the torque on the cam shaft, over n/n0; infinite where none is left.
+
+        K_y2 = n^2 (1 + g)/(|n^2 - (1 + rho) n0^2| + f n0^2 + g n^2)
+
+        Notes
+            g `shaft.linkage_share`, rho the reserve, f `unloader.residual`, of which 1/4.6 and 1/3.4 were measured.
+            Assumes that both peaks fall together, so it is the minimum favourable case. g = 0 gives the ratio on the
+            rocker axis: below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
+        Source
+            wide-swing dissertation, chapter 5; own derivation
+        """
+        linkage, square = self._shaft.linkage_share, speed_ratio**2
+        with np.errstate(divide="ignore"):
+            result: Reals = square * (1.0 + linkage) / (self._left(speed_ratio) + linkage * square)
+        return result
+
+    @property
+    def drive_balancing_ratio(self) -> float | None:
+        """K_y2 at the design speed; None where no torque is left."""
+        found = float(self.balancing_ratios(np.ones(1))[0])
+        return found if math.isfinite(found) else None
+
+    @cached_property
+    def _torque_series(self) -> CosineSeries:
+        with at_key("shaft"):
+            return acceleration_series(self.motion.torque)
+
+    @property
+    def dynamic_coefficient(self) -> float:
+        """K_d, torque with the drive's elasticity over the calculated torque."""
+        return self.dynamic_coefficients([1.0])[0]
+
+    def dynamic_coefficients(self, speed_ratios: Iterable[float]) -> list[float]:
+        """K_d over n/n0; not a number where a slow stroke finds the drive rigid.
+
+        Raises
+            NoSolution - at the design speed, where the drive is rigid to it
+        """
+        shaft, found = self._shaft, []
+        calculated = peak_of(self._torque_series)
+        for ratio in speed_ratios:
+            stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time / ratio
+            if ratio < 1.0 and stiffness > STIFFEST:
+                found.append(math.nan)
+                continue
+            with at_key("shaft"):
+                found.append(dynamic_coefficient(self._torque_series, stiffness, shaft.damping, calculated)[0])
+        return found
+
+    @property
+    def left_share(self) -> float:
+        """Torque with the device over that without it in the working stroke at the design speed, negative where the
+        device is the stronger.
+
+        sgn(g)(|g| + f q^2), g = 1 - (1 + rho) q^2, q = T/T0, T0 the time of the shorter stroke
+        """
+        square = (self.motion.working_time / self.motion.stroke_time) ** 2
+        left = 1.0 - self._whole * square
+        return math.copysign(abs(left) + self.spec.unloader.residual * square, left if left > 0.0 else -1.0)
+
+    def history(self) -> Table:
+        """Torques of rocker shaft and main shaft over the working stroke and the rest after it.
+
+        M_e'' + 2 zeta w M_e' + w^2 M_e = w^2 (share M) from rest at the start; on the main shaft times gamma b/phi_ud
+
+        Notes
+            The first natural frequency is that of the mean inertia. What the stroke before has left is not counted.
+        """
+        motion, shaft, time = self.motion, self._shaft, self.motion.working_time
+        stroke = math.degrees(motion.cycle_angle)
+        rest = stroke if self.spec.cycle is None else self.spec.cycle.lengths[1]
+        angle = np.arange(math.floor((stroke + rest) * (1.0 + 1e-12)) + 1.0)
+        inside = angle <= stroke * (1.0 + 1e-12)
+        k = np.minimum(angle[inside] / stroke, 1.0)
+        with at_key("shaft"):
+            response = TorsionResponse(
+                self._torque_series, 2.0 * math.pi * shaft.natural_frequency * time, shaft.damping
+            )
+        scale, share = motion.inertia * motion.swing / time**2, self.left_share
+        rigid, elastic, ratio = (np.zeros_like(angle) for _ in range(3))
+        rigid[inside] = scale * motion.torque(k)
+        elastic[inside], elastic[~inside] = response(k), response.after(angle[~inside] / stroke)
+        ratio[inside] = motion.swing / motion.cycle_angle * motion.law.invariants(k, 1)[1]
+        torques = {"": rigid, "_balanced": share * rigid, "_elastic": share * scale * elastic}
+        columns = {
+            "time": (angle / (6e-3 * self.spec.speed), "ms"),
+            "cam_angle": (angle, "deg"),
+            **{f"rocker_torque{end}": (values, "N m") for end, values in torques.items()},
+            **{f"drive_torque{end}": (values * ratio, "N m") for end, values in torques.items()},
+        }
+        return Table.of("history", columns)
+
+    @property
+    def _shaft(self) -> SwingShaft:
+        if self.spec.shaft is None:
+            raise MissingSection("this needs the section shaft: natural_frequency, damping", key="shaft")
+        return self.spec.shaft
+
+    @property
+    def even_inertia(self) -> float:
+        """Inertia of a rocker alone that would need the same device [kg m^2]."""
+        motion = self.motion
+        if self.spec.slider is None:
+            return motion.inertia
+        return motion.reference_inertia * motion.slider.energy_parameter / motion.plain_law.energy_parameter
+
+    @property
+    def harmful_speed(self) -> float:
+        """Speed up to which the device raises the torque, n0 sqrt((1 + rho + f)/2) [rev/min]."""
+        return self.spec.speed * math.sqrt(0.5 * (self._whole + self.spec.unloader.residual))
+
+    # Force closure
+
+    @cached_property
+    def way_back(self) -> Extreme | None:
+        """The place where an oscillating cam that swings home asks most of the device; None with no such way back."""
+        try:
+            return None if self._way_back is None else self._way_back()
+        except NoSolution:  # of a cam that cannot be, which fails in checks of its own
+            return None
+
+    @property
+    def need(self) -> float:
+        """k_b, greatest acceleration of the rocker on its way back over that of the stroke; 1 where they are alike."""
+        return 1.0 if self.way_back is None else self.way_back.value
+
+    @property
+    def lift_off_speed(self) -> float:
+        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b); 0 where f is more [rev/min]."""
+        whole = self._whole - self.spec.unloader.residual
+        return self.spec.speed * math.sqrt(whole / self.need) if whole > 0.0 else 0.0
+
+    def contact_force(
+        self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0, need: float | Reals = 1.0
+    ) -> Reals:
+        """Force of the roller on a cam, along their normal.
+
+        F = J gamma |c| ((1 + rho) - k_b (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a instead of |c|
+
+        Parameters
+            cam : WideSwingCam or OscillatingCam
+            k : (N,) array - fractions of the stroke, mid-swing left out
+            speed_ratio : float or (N,) array - n/n0
+            need : float or (N,) array - k_b, the rocker's acceleration over that of the stroke
+        Returns
+            force : (N,) array [N] - positive where the profile is pressed, in run-up and run-out; negative where the
+                roller leaves it
+        Notes
+            Friction is left out. In run-up the device is stronger than the inertia and the cam holds the rocker back;
+            in run-out the inertia is weaker than the device and the cam pushes. T0 is the time of the shorter of two
+            strokes, T that of the cam's own. With a slider the force reverses at mid-swing, the roller where the
+            rocker is fastest: between the two the force is negative.
+        """
+        torque = self.motion.torque(k) * np.where(k < cam.middle, 1.0, -1.0)
+        force: Reals = self._pressing(cam, speed_ratio, need) * torque / np.cos(cam.pressure_angle(k))
+        return force
+
+    def _pressing(self, cam: AnyCam, speed_ratio: Any, need: Any) -> Any:
+        """Force along the normal by torque over J gamma/T^2 and cos delta [N]."""
+        motion = self.motion
+        speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
+        scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
+        return scale * (self.size.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0))
+
+    def even_contact_force(self, cam: WideSwingCam) -> float:
+        """Maximum force of the roller on a cam that turns evenly, at the design speed [N]."""
+        pressing: float = self._pressing(cam, 1.0, 1.0)
+        most, least = cam.pressing
+        return max(pressing * most.value, pressing * least.value)
+
+    def dwell_force(self, cams: Iterable[AnyCam]) -> float:
+        """Maximum force of a roller on its cam during the rests, when the cam bears the whole device [N].
+
+        F = (1 + rho) J gamma c(0)/(T0^2 r cos delta0)
+
+        Parameters
+            cams : of both strokes
+        Returns
+            force : float [N] - it also acts at the ends of the strokes of a machine that barely turns
+        """
+        return max(float(self.contact_force(cam, np.array([0.0, 1.0]), 0.0).max()) for cam in cams)
 
 
 # Dynamic coefficient of a wide-swing drive: what its torsional elasticity adds to the calculated torque
@@ -190,6 +306,8 @@ def drive_balancing_ratio(
 
 STIFFEST = 20_000.0
 """Natural frequency times stroke time from which the search for the peak takes seconds and finds the step's alone."""
+_NEAR = 1.0
+"""Distance of a wave, j pi, from the free oscillation below which the difference of both is not formed."""
 
 
 def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
@@ -225,7 +343,8 @@ def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
 class TorsionResponse:
     """Torque over a stroke of a drive with torsional elasticity, at rest when the stroke begins.
 
-    y = sum c_j W^2 Re[(e^{i j pi k} - transient)/(W^2 - (j pi)^2 + 2 i zeta W j pi)]
+    y = (W^2/W_d) Im z, z' = m z + c from z(0) = 0, m = -zeta W + i W_d, c = sum c_j cos(j pi k)
+    z = sum (c_j/2) [(e^{i j pi k} - e^{m k})/(i j pi - m) + (e^{-i j pi k} - e^{m k})/(-i j pi - m)]
 
     Parameters
         series : CosineSeries - of the acceleration invariant
@@ -247,6 +366,11 @@ class TorsionResponse:
         if not 0.0 <= self.damping < 1.0:
             raise NoSolution(f"damping ratio: {self.damping:.4g} (at least 0, below 1)")
 
+    @property
+    def _free(self) -> complex:
+        """m, in units of the stroke."""
+        return self.stiffness * complex(-self.damping, math.sqrt(1.0 - self.damping**2))
+
     def __call__(self, k: Reals) -> Reals:
         """y at fractions k of the stroke.
 
@@ -254,72 +378,36 @@ class TorsionResponse:
             k : (N,) array
         Returns
             y : (N,) array - in the unit of c
-        Notes
-            Undamped terms near resonance are products of sines, free of cancellation.
         """
-        if self.damping > 0.0:
-            return self._damped(k)
-        result = np.zeros_like(k)
-        for j, amplitude in enumerate(self.series.coefficients.tolist()):
-            result += amplitude * self.stiffness**2 * self._undamped(k, j * math.pi)
-        return result
-
-    def rate(self, k: Reals) -> Reals:
-        """dy/dk at fractions k of the stroke."""
-        result = np.zeros_like(k)
-        for j, amplitude in enumerate(self.series.coefficients.tolist()):
-            wave = j * math.pi
-            rate = self._undamped_rate(k, wave) if self.damping == 0.0 else self._damped_rate(k, wave)
-            result += amplitude * self.stiffness**2 * rate
-        return result
+        return self._part(k, 1.0)
 
     def after(self, k: Reals) -> Reals:
-        """y at k > 1, where the oscillation that the stroke leaves dies out.
-
-        y = e^{-zeta W t}(y_1 cos W_d t + (y_1' + zeta W y_1) sin(W_d t)/W_d), t = k - 1
-        """
+        """y at k > 1, where the oscillation that the stroke leaves dies out, z = z(1) e^{m (k - 1)}."""
         end = np.ones(1)
-        value, rate, time = float(self(end)[0]), float(self.rate(end)[0]), k - 1.0
-        decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
-        swing = value * np.cos(free * time) + (rate + decay * value) / free * np.sin(free * time)
-        return np.asarray(np.exp(-decay * time) * swing)
+        left = complex(float(self._part(end, 1j)[0]), float(self._part(end, 1.0)[0]))
+        return np.asarray((left * np.exp(self._free * (k - 1.0))).imag)
 
-    def _undamped_rate(self, k: Reals, wave: float) -> Reals:
-        total, difference = 0.5 * (self.stiffness + wave), 0.5 * (self.stiffness - wave)
-        first = np.cos(total * k) * np.sinc(difference * k / math.pi)
-        result: Reals = 0.5 * k * (first + np.sinc(total * k / math.pi) * np.cos(difference * k))
-        return result
+    def _part(self, k: Reals, factor: complex) -> Reals:
+        """(W^2/W_d) Im(factor z) at fractions k of the stroke.
 
-    def _damped_rate(self, k: Reals, wave: float) -> Reals:
-        decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
-        forced = 1.0 / complex(self.stiffness**2 - wave**2, 2.0 * decay * wave)
-        sine = (forced * 1j * wave).real + decay * forced.real
-        cosine, turned = np.cos(free * k), np.sin(free * k)
-        dying = decay * (forced.real * cosine + sine / free * turned) + free * forced.real * turned - sine * cosine
-        result: Reals = (1j * wave * forced * np.exp(1j * wave * k)).real + np.exp(-decay * k) * dying
-        return result
-
-    def _undamped(self, k: Reals, wave: float) -> Reals:
-        """(cos wave k - cos W k)/(W^2 - wave^2)."""
-        total, difference = 0.5 * (self.stiffness + wave), 0.5 * (self.stiffness - wave)
-        # np.sinc(x) = sin(pi x)/(pi x)
-        result: Reals = 0.5 * k**2 * np.sinc(total * k / math.pi) * np.sinc(difference * k / math.pi)
-        return result
-
-    def _damped(self, k: Reals) -> Reals:
-        """All waves together: what dies out is one oscillation, whatever has started it."""
-        decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
-        waves = math.pi * np.arange(len(self.series.coefficients))
-        forced = self.series.coefficients * self.stiffness**2 / (self.stiffness**2 - waves**2 + 2j * decay * waves)
-        # the waves are powers of the first: a product each, and no sine
+        Notes
+            A wave near resonance is k e^{(i j pi + m) k/2} sinh(x)/x, x = (i j pi - m) k/2, free of cancellation.
+        """
+        free, waves = self._free, 1j * math.pi * np.arange(len(self.series.coefficients))
+        sizes = 0.5 * factor * self.stiffness**2 / free.imag * self.series.coefficients
+        apart = waves - free
+        near = np.abs(apart) < _NEAR
+        forth, back = np.where(near, 0.0, sizes / np.where(near, 1.0, apart)), -sizes / (waves + free)
+        # the waves are powers of the first: a product each, and no sine; those that run back as their mirror images
         first, total = np.exp(1j * math.pi * k), np.zeros(k.shape, dtype=np.complex128)
-        for amplitude in forced[::-1].tolist():
+        for amplitude in (forth - back.conj())[::-1].tolist():
             total = amplitude + total * first
-        result: Reals = total.real
-        cosine = float(forced.real.sum())
-        sine = float((1j * waves * forced).real.sum()) + decay * cosine
-        result -= np.exp(-decay * k) * (cosine * np.cos(free * k) + sine / free * np.sin(free * k))
-        return result
+        found: Reals = (total - np.exp(free * k) * complex(forth.sum() + back.sum())).imag
+        for j in np.flatnonzero(near):
+            x = 0.5 * apart[j] * k
+            ratio = np.sinh(x) / np.where(x == 0.0, 1.0, x) + (x == 0.0)
+            found += (sizes[j] * k * np.exp(0.5 * (waves[j] + free) * k) * ratio).imag
+        return found
 
 
 def peak_of(series: CosineSeries) -> float:
@@ -495,28 +583,15 @@ class FlankImpact:
         return None if found is None or stiffness is None else found[1] * math.sqrt(1e3 * stiffness * found[0])
 
 
-def end_position_gain(design: WideSwingDesign) -> float:
-    """Way at `output_radius` over an error of the profile, at the end of the swing where it is greater.
-
-    (R/r) rho/(a sin phi_e): at rest the roller stands on the arc, rho^2 = a^2 + r^2 - 2 a r cos phi_e
-    """
-    cam, radius = design.cam, design.spec.output_radius
-    assert radius is not None, "asked for where the file has it"
-    arms = cam.rocker_radius * cam.center_distance
-    return max((radius * cam.pitch_radius(end) / (arms * math.sin(end)) for end in cam.ends), key=abs)
-
-
 def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
     """GL542: the speed of the blow, where the file has a limit."""
-    from gearlink.core.machines.wide_swing import codes
-
     limit = design.spec.limits.impact_speed
     if limit is None or not design.has_profile:
         return
     speed, place = design.impact.speed, design.impact.place
     if speed is None or place is None:
         return
-    yield codes.FLANK_IMPACT.check(
+    yield FLANK_IMPACT.check(
         "warn" if speed > limit else "pass",
         "speed at which the roller changes flanks",
         speed,

@@ -17,7 +17,6 @@ from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.flatbed_press import cylinder_positions
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size
 from gearlink.cli.views.figures.write import failures
-from gearlink.core.machines.wide_swing.design import torque_peaks
 
 SIX_BAR: list[tuple[list[int], float]] = [([20, 30], 3.0), ([20, 21], 21.0), ([20, 20], 1.0)]
 
@@ -146,7 +145,7 @@ def test_the_least_torque_with_a_device_is_drawn() -> None:
     made, figure = sheet("wide_swing_twin_cam", "swing")
     speed, torque = curve(figure, "with-device")
     fine = np.linspace(110.0, 113.0, 3001)
-    peaks = torque_peaks(made, fine / made.spec.speed)[1]
+    peaks = made.unloading.torque_peaks(fine / made.spec.speed)[1]
     assert speed[np.argmin(torque)] == pytest.approx(fine[np.argmin(peaks)], abs=2e-3)
     assert torque.min() == pytest.approx(peaks.min(), abs=5e-3)
     table = made.table("balance")

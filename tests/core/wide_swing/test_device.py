@@ -10,6 +10,7 @@ import json
 import math
 from pathlib import Path
 
+import factory
 import numpy as np
 import pytest
 from hypothesis import given
@@ -21,11 +22,9 @@ from gearlink.core.machines.wide_swing.device import (
     DeviceGeometry,
     Pneumatic,
     Spring,
-    force,
     least_pivot_ratio_pneumatic,
     least_pivot_ratio_spring,
     least_pivot_ratio_spring_material,
-    spring_rate,
 )
 from gearlink.core.numerics.roots import bracketed_root
 
@@ -111,15 +110,18 @@ def test_stable_lengths_equal_the_law_of_cosines(swing: float, ratio: float, u: 
 
 
 def test_sizing_of_the_reference() -> None:
-    expected = CASES["D20"]
-    gamma = math.radians(120.0)
-    assert force(CASES["D02"]["N"], 0.5, gamma, 120.0, expected["T0"]) == pytest.approx(
-        expected["P_force_N"], rel=ROUNDING
+    """D02 and D08 of a rocker of 0.5 kg m^2 with an arm of 120 mm; N is that of the law, known to 2e-15."""
+    expected, turn = CASES["D20"], {"inertia": 0.5, "speed": 60.0 * 1.66}
+    cylinder = {"type": "pneumatic", "pivot_ratio": 2.5, "arm": 120.0}
+    spring = {"type": "spring", "pivot_ratio": 4.0, "stretch_ratio": 0.5, "arm": 120.0}
+    of_cylinder = factory.design("wide_swing_twin_cam", command="swing", unloader=cylinder, **turn)
+    # both strokes take the same time
+    of_spring = factory.design(
+        "wide_swing_twin_cam", command="swing", unloader=spring, swing=180.0, **turn, cycle_angle=120.0
     )
+    assert of_cylinder.raw("force") == pytest.approx(expected["P_force_N"], rel=4 * ROUNDING)
     # N/m to N/mm
-    assert spring_rate(CASES["D08"]["N"], 0.5, math.pi, 120.0, expected["T0"]) == pytest.approx(
-        expected["spring_c_N_per_m"] / 1000.0, rel=ROUNDING
-    )
+    assert of_spring.raw("spring_rate") == pytest.approx(expected["spring_c_N_per_m"] / 1000.0, rel=4 * ROUNDING)
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.4, -2.0, math.nan, math.inf])
@@ -143,7 +145,3 @@ def test_refusals_name_value_and_remedy() -> None:
         least_pivot_ratio_spring(2.0, 0.5, 120.0, 100.0, -1.0)
     with pytest.raises(NoSolution, match=r"stretch capacity 0 .limit > 0"):
         least_pivot_ratio_spring_material(2.0, 0.5, 0.0)
-    with pytest.raises(NoSolution, match="moment of inertia: 0 kg m"):
-        force(4.0, 0.0, 2.0, 120.0, 0.2)
-    with pytest.raises(NoSolution, match="time of the stroke: nan s"):
-        spring_rate(4.0, 1.0, 2.0, 120.0, math.nan)
