@@ -1042,7 +1042,7 @@ def closed_cam(name: str, design: Any) -> Part:
     cycle = design.cycle
     late = name != "contour"
     closed, frame = (cycle.back, cycle.of_back) if late else (cycle.main, cycle.of_main)
-    start, end = (k * closed.own for k in closed.slot)
+    start, end = (k * closed.own for k in closed.cam.slot)
     places = [(0, 0.0), (0, start), (0, 0.5 * closed.own), (0, end), *((i, closed.starts[i]) for i in (1, 2, 3))]
     ends = [t for _, t in places[1:]] + [closed.starts[4]]
     spans = [(i, low, high) for (i, low), high in zip(places, ends, strict=True) if high > low]

@@ -113,7 +113,7 @@ def _mirrored(z: Any, mirror: float) -> tuple[Any, Any]:
 def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
     from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc
 
-    run_up, bottom, run_out = contour(cam, design.slot_of(cam))
+    run_up, bottom, run_out = contour(cam)
     edge = np.concatenate((run_up, bottom, run_out))
     rest = dwell_arc(cam) if design.spec.cycle is None else _rest_of_turn(design, cam, mirror)
     x, y = _mirrored(np.concatenate((edge, rest)), mirror)
@@ -175,10 +175,8 @@ def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
 
 def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     """The rocker at start, mid-swing and end as the cam sees it."""
-    from gearlink.core.machines.wide_swing.strokes import rocker_pivots
-
     points = cam.points(np.array([0.0, cam.middle, 1.0]))
-    pivots = rocker_pivots(cam, points)
+    pivots = -cam.sense * cam.center_distance * np.exp(1j * cam.sense * points.cam_angle)
     looks = (("start", style.GREEN), ("mid-swing", style.BLACK), ("end", style.PURPLE))
     for roller, pivot, (name, color) in zip(points.pitch, pivots, looks, strict=True):
         arm = [complex(z.real, mirror * z.imag) for z in (pivot, roller)]
@@ -388,7 +386,7 @@ def _cam(
         return [_closed(cycle, turn, color, late=mirrored, seat=seat)]
     from gearlink.core.machines.wide_swing.strokes import contour
 
-    run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
+    run_up, slot, run_out = contour(cam, 160)
     outline = np.concatenate([run_up, slot[1:], run_out[1:]])
     outline = outline.conj() if mirrored else outline
     place = track(seat * cam.center_distance, cycle.fraction)

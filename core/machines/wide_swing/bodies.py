@@ -117,12 +117,12 @@ def _drive(design: WideSwingDesign, cam: Axis) -> Iterator[Check]:
     if bar.frame < cam.radius:
         yield from beside("the crank's axis", cam, bar.frame, advice, _ONE_ENDS)
         return
-    room = bar.frame - _disc_radius(design)
+    room = bar.frame - disc_radius(design)
     for check in over_axis_check(SHAFT_CLEARANCE, "cam", room, roller, "the crank's axis", advice):
         yield check._replace(name=CHECK)
 
 
-def _disc_radius(design: WideSwingDesign) -> float:
+def disc_radius(design: WideSwingDesign) -> float:
     """Maximum radius of the oscillating cam [mm]."""
     cam = design.cam
     if not design.has_profile:

@@ -515,6 +515,30 @@ class StrokeCam:
             return 0.5
         return self.middle - before if self.symmetric else max(self.middle - before, after - self.middle)
 
+    @property
+    def slot(self) -> tuple[float, float]:
+        """Fractions of the stroke between which the roller at k* has cut the profile away."""
+        (_, start), (end, _) = self.contact
+        return start, end
+
+    @cached_property
+    def _slot_ends(self) -> tuple[complex, complex, float, float]:
+        """Roller centre at k*, its radius into the body, and the directions of both ends of the slot from it [rad]."""
+        state = self.state(np.array([*self.slot, self.middle]))
+        pitch, size = self.center_distance * state.pitch, self.roller_radius
+        middle = complex(pitch[2])
+        into = -self.sense * size * middle / abs(middle)
+        ends = pitch[:2] + self.sense * size * state.normal[:2]
+        first, last = (float(np.angle((end - middle) / into)) for end in ends)
+        return middle, into, first, last
+
+    def slot_bottom(self, share: Reals) -> Points:
+        """Arc of the roller at k*, from the end of the run-up's profile to the start of the run-out's, in the frame of
+        `CurveState` [mm]."""
+        middle, into, first, last = self._slot_ends
+        arc: Points = middle + into * np.exp(1j * (first + (last - first) * share))
+        return arc
+
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
         places = [self.middle - zone] if self.symmetric else [self.middle - zone, self.middle + zone]
@@ -579,8 +603,8 @@ class StrokeCam:
             k=state.k,
             cam_angle=state.theta,
             polar_angle=state.theta - state.correction,
-            pitch=place * _mirrored(pitch, self.sense),
-            profile=place * _mirrored(profile, self.sense),
+            pitch=place * mirrored(pitch, self.sense),
+            profile=place * mirrored(profile, self.sense),
             pressure_angle=state.pressure_angle,
             curvature_radius=radius,
         )
@@ -931,7 +955,7 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
     )
 
 
-def _mirrored(w: Points, sense: int) -> Points:
+def mirrored(w: Points, sense: int) -> Points:
     """From the common form to the layout's own frame."""
     result: Points = w if sense > 0 else -np.conj(w)
     return result

@@ -193,34 +193,10 @@ class ClosedCam:
         found = pitch + cam.sense * size * state.normal
         if sector:
             return np.asarray(found)
-        start, end = self.slot
+        start, end = cam.slot
         inside = (state.k > start) & (state.k < end)
-        found[inside] = self._slot((state.k[inside] - start) / (end - start))
+        found[inside] = cam.slot_bottom((state.k[inside] - start) / (end - start))
         return np.asarray(found)
-
-    @cached_property
-    def slot(self) -> tuple[float, float]:
-        """Fractions of its own stroke between which the roller at mid-swing has cut the profile away."""
-        (_, start), (end, _) = self.cam.contact
-        return start, end
-
-    @cached_property
-    def _slot_ends(self) -> tuple[complex, float, float]:
-        """Roller centre at mid-swing, and the directions from it to the ends of its slot, by way of the body [rad]."""
-        cam = self.cam
-        state = cam.state(np.array([*self.slot, 0.5]))
-        pitch = cam.center_distance * state.pitch
-        ends = pitch[:2] + cam.sense * cam.roller_radius * state.normal[:2]
-        middle = complex(pitch[2])
-        into = -cam.sense * middle / abs(middle)
-        first, last = (float(np.angle((end - middle) / into)) for end in ends)
-        return middle, first, last
-
-    def _slot(self, share: Reals) -> Points:
-        middle, first, last = self._slot_ends
-        into = -self.cam.sense * middle / abs(middle)
-        arc: Points = middle + self.cam.roller_radius * into * np.exp(1j * (first + (last - first) * share))
-        return arc
 
     def _room(self, t: Reals) -> Reals:
         return self.clearance * self._share(t)
@@ -250,7 +226,7 @@ class ClosedCam:
         Returns
             pieces : (name, points) pairs - "profile", "slot", "profile", "arc", "free", "arc"
         """
-        start, end = self.slot
+        start, end = self.cam.slot
         parts = [(0, "profile", 0.0, start * self.own), (0, "slot", start * self.own, end * self.own)]
         parts.append((0, "profile", end * self.own, self.own))
         parts += [(i, ("arc", "free")[i == 2], self.starts[i], self.starts[i + 1]) for i in (1, 2, 3)]
@@ -456,7 +432,7 @@ class WholeCycle:
 
 
 def _columns(prefix: str, cam: ClosedCam, t: Reals, frame: Callable[[Points], Points]) -> dict[str, tuple[Reals, str]]:
-    start, end = cam.slot
+    start, end = cam.cam.slot
     k = cam.swing_share(t)
     gone = (cam.sector_at(t) == 0) & (k > start) & (k < end)
     pitch, contour = frame(cam.pitch(t)), frame(cam.contour(t))

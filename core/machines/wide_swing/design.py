@@ -40,14 +40,7 @@ from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
 from gearlink.core.machines.wide_swing.law import legacy_law
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
 from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, aimed_law, greatest_need, need_home
-from gearlink.core.machines.wide_swing.sizing import (
-    ISENTROPIC,
-    OF_CYLINDER,
-    OF_GRAVITY,
-    QUANTITIES,
-    device_table,
-    names,
-)
+from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, OF_CYLINDER, OF_GRAVITY, QUANTITIES, names
 from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
 from gearlink.core.machines.wide_swing.strokes import AnyCam
 from gearlink.core.machines.wide_swing.torques import FlankImpact, Unloading, flank_impact
@@ -328,8 +321,7 @@ def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
         room = sense * (place - cam.end_radius) + roller
         if design.spec.drive is not None and design.has_profile:
             # Both stop there, so that the normal of the pitch curve does not point to the cam's axis.
-            (first, _), (_, last) = cam.contact
-            room = place - float(np.abs(cam.points(np.array([first, last])).profile).max())
+            room = place - bodies.disc_radius(design)
         advice = "overhang the rocker next to the cam, or reduce the swing"
         rule, axis = SHAFT_CLEARANCE, "the rocker's axis"
         at = "the ends of the stroke"
@@ -374,7 +366,7 @@ def _contours(design: WideSwingDesign) -> list[tuple[str, ClosedCam]]:
     try:
         found = list(design.cycle.contours.items())
         for _, cam in found:
-            _ = cam.slot
+            _ = cam.cam.slot
     except NoSolution:
         # what is refused here fails in checks of its own
         return []
@@ -565,47 +557,28 @@ _CAM_CHECKS = (
 )
 
 
+_DEVICE_KEYS = ("force", "spring_rate", "slider_stroke")
+_STEEPEST_KEY = ("max_pressure_angle", "<limits.pressure_angle")
+_CAM_KEYS = (
+    ("lift_off_speed", ">speed"),
+    "contact_force",
+    "drive_torque_peak",
+    "max_radius",
+    "rocker_radius",
+    ("transition_zone", "<limits.transition_zone"),
+    "energy_parameter",
+)
+
+
 class WideSwingDesign(Design):
     """A twin-cam or twin-rocker mechanism, from its design file to every quantity that is asked for."""
 
     kind = "wide-swing-cam"
     spec: WideSwingSpec
     keys = {
-        "swing": (
-            "force",
-            "spring_rate",
-            "slider_stroke",
-            ("min_pivot_ratio", "<unloader.pivot_ratio"),
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            ("lift_off_speed", ">speed"),
-            "contact_force",
-            "drive_torque_peak",
-            "max_radius",
-            "rocker_radius",
-            ("transition_zone", "<limits.transition_zone"),
-            "energy_parameter",
-        ),
-        "analyze": (
-            "force",
-            "spring_rate",
-            "slider_stroke",
-            "rocker_speed_max",
-            "rocker_acceleration_max",
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            ("lift_off_speed", ">speed"),
-            "contact_force",
-            "drive_torque_peak",
-            "max_radius",
-            "rocker_radius",
-            ("transition_zone", "<limits.transition_zone"),
-            "energy_parameter",
-        ),
-        "cam": (
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            "min_curvature_radius",
-            "max_radius",
-            "min_radius",
-        ),
+        "swing": (*_DEVICE_KEYS, ("min_pivot_ratio", "<unloader.pivot_ratio"), _STEEPEST_KEY, *_CAM_KEYS),
+        "analyze": (*_DEVICE_KEYS, "rocker_speed_max", "rocker_acceleration_max", _STEEPEST_KEY, *_CAM_KEYS),
+        "cam": (_STEEPEST_KEY, *_CAM[1:]),
     }
     outlines = {
         "swing": Outline(tuple(LAW), _LAW_CHECKS, ("law", "balance")),
@@ -1001,7 +974,9 @@ class WideSwingDesign(Design):
         """Torques of rocker shaft and main shaft over the stroke and the rest after it, with elasticity."""
         return self.unloading.history()
 
-    table_device = device_table
+    def table_device(self, samples: int | None = None) -> Table:
+        """Length, force and torque of the device over the stroke, and what it leaves of the inertia torque."""
+        return self.unloading.size.table(_k(samples))
 
     def table_contour(self, samples: int | None = None) -> Table:
         """Both cams as closed contours over one revolution."""

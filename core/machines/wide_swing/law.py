@@ -146,7 +146,7 @@ class ElasticLaw:
 
     device: Device
     swing: float
-    place, offset, acceleration, symmetric = 0.5, 0.0, 0.0, True
+    place, middle_place, offset, acceleration, symmetric = 0.5, 0.5, 0.0, 0.0, True
     """Of mid-swing, about which both half strokes are mirror images."""
     turns = -0.5 * math.pi, 0.5 * math.pi
     """Pendulum angle u at the start and the end of the stroke [rad]."""

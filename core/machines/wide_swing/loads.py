@@ -36,9 +36,9 @@ from gearlink.core.studies import codes
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.cams import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.checks import resonance
-from gearlink.core.studies.loads.contact import LineContact, plane_modulus
+from gearlink.core.studies.loads.contact import LineContact, contact_of
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
-from gearlink.core.studies.loads.joints import BALL, ROLLER
+from gearlink.core.studies.loads.joints import BALL, ROLLER, BearingLoad
 from gearlink.core.studies.loads.names import PIN
 from gearlink.core.studies.loads.panels import Panels
 from gearlink.core.studies.loads.vibration import Vibrating
@@ -135,18 +135,8 @@ class SwingStroke:
 
     def contact(self, k: Reals) -> LineContact | None:
         """The Hertzian contact; None without a width."""
-        return self.contact_of(self.force(k), self.relative_radius(k)) if self.loads.section.roller else None
-
-    def contact_of(self, force: Reals, radius: Reals) -> LineContact | None:
-        """The same under a force [N] with a relative radius [mm]."""
         section = self.loads.section
-        if section.roller is None:
-            return None
-        from gearlink.core.studies.loads.spec import Material
-
-        material = section.material or Material()
-        modulus = plane_modulus(material.modulus, material.poisson)
-        return LineContact(force, radius, section.roller.width, modulus)
+        return contact_of(section, self.force(k), self.relative_radius(k)) if section.roller else None
 
     @property
     def curved_parts(self) -> Parts:
@@ -321,7 +311,7 @@ class SwingRest:
 
     def pressure(self, phi: Reals) -> Reals | None:
         """Pressure there [N/mm^2]; None without a width."""
-        contact = self.stroke.contact_of(self.force(phi), np.full_like(phi, self.relative_radius))
+        contact = contact_of(self.stroke.loads.section, self.force(phi), np.full_like(phi, self.relative_radius))
         return None if contact is None else contact.pressure
 
     @property
@@ -344,7 +334,8 @@ class SwingRest:
         """Maximum force, pressure and depth of the shear, and the minimum force: on an arc both go with the force."""
         greatest, least = self.forces
         found = {"force": max(abs(greatest), abs(least)), "least_force": least}
-        contact = self.stroke.contact_of(np.array([greatest]), np.array([self.relative_radius]))
+        section, radius = self.stroke.loads.section, np.array([self.relative_radius])
+        contact = contact_of(section, np.array([greatest]), radius)
         if contact is not None:
             found |= {"pressure": float(contact.pressure[0]), "shear_depth": float(contact.shear_depth[0])}
         return found
@@ -374,7 +365,7 @@ class SwingVibrating(Vibrating):
         return super().motions if self.design.whole else [(0.0, self.design.cam.cycle_angle)]
 
 
-class RollerLoad:
+class RollerLoad(BearingLoad):
     """What the bearings of the rollers bear over a revolution: of rollers that differ the one that lasts shortest.
 
     Parameters
@@ -387,25 +378,27 @@ class RollerLoad:
         ISO 281, P = (int F^p |n| dt/int |n| dt)^(1/p) over the speed of the roller on its pin
     """
 
-    def __init__(self, loads: WideSwingLoads, bearing: Bearing) -> None:
-        self.loads, self.bearing = loads, bearing
-
+    design: WideSwingLoads
+    bearing: Bearing
     swing = None
     """It goes round."""
 
+    def __init__(self, loads: WideSwingLoads, bearing: Bearing) -> None:
+        self.design, self.bearing = loads, bearing
+
     @property
     def exponent(self) -> float:
-        """3 for balls, 10/3 for rollers and needles."""
+        """3 for balls, 10/3 for all others."""
         return BALL if self.bearing.kind == "ball" else ROLLER
 
     @cached_property
     def borne(self) -> tuple[tuple[float, float], ...]:
         """Equivalent load [N] and turns a revolution of the input, by roller."""
-        parts = [_run(stroke, self.exponent) for stroke in self.loads.strokes]
-        for rest in self.loads.pressing.rests:
-            number = self.loads.strokes.index(rest.stroke)
+        parts = [_run(stroke, self.exponent) for stroke in self.design.strokes]
+        for rest in self.design.pressing.rests:
+            number = self.design.strokes.index(rest.stroke)
             parts[number] = parts[number] + rest.run(self.exponent)
-        if self.loads.spec.drive is not None:  # one roller on one cam
+        if self.design.spec.drive is not None:  # one roller on one cam
             parts = [sum(parts, np.zeros(2))]
         pairs = (part.tolist() for part in parts)
         return tuple(((force / way) ** (1.0 / self.exponent), way / math.tau) for force, way in pairs)
@@ -427,26 +420,7 @@ class RollerLoad:
     @property
     def peak(self) -> float:
         """Maximum force [N]."""
-        return self.loads.contact_force_max
-
-    @property
-    def life(self) -> float | None:
-        """Basic rating life [h], L_10 = 10^6 (C/P)^p turns; None of a plain bearing."""
-        rating = self.bearing.dynamic_rating
-        if rating is None or self.equivalent == 0.0:
-            return None
-        turns = 1e6 * (rating / self.equivalent) ** self.exponent
-        return float(turns / (self.travel * abs(self.loads.speed) / math.tau * 3600.0))
-
-    @property
-    def bearing_pressure(self) -> float | None:
-        """Maximum pressure of a plain bearing, F/(b d) [N/mm^2]."""
-        bearing = self.bearing
-        return (
-            None
-            if bearing.width is None or bearing.diameter is None
-            else self.peak / (bearing.width * bearing.diameter)
-        )
+        return self.design.contact_force_max
 
 
 def _run(stroke: SwingStroke, exponent: float) -> Reals:

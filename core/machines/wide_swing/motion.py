@@ -194,14 +194,15 @@ class Motion:
     # Pendulum
 
     @property
-    def _pendulum(self) -> GravityDevice:
+    def pendulum(self) -> GravityDevice:
+        """The section of a device of type gravity."""
         unloader = self.spec.unloader
         assert unloader.type == "gravity", "needed of a pendulum alone"
         return unloader
 
     def _hung(self, mass: float) -> float:
         """J_0 + m s^2 [kg m^2]."""
-        return self.spec.inertia + mass * (1e-3 * self._pendulum.distance) ** 2
+        return self.spec.inertia + mass * (1e-3 * self.pendulum.distance) ** 2
 
     @property
     def pendulum_rate(self) -> float:
@@ -222,7 +223,7 @@ class Motion:
     @cached_property
     def hanging_mass(self) -> float:
         """Mass of the pendulum, as given or with its reserve [kg]."""
-        unloader = self._pendulum
+        unloader = self.pendulum
         return self.pendulum_mass(1.0 + unloader.reserve) if unloader.mass is None else unloader.mass
 
     def pendulum_mass(self, whole: float) -> float:
@@ -234,7 +235,7 @@ class Motion:
         Raises
             NoSolution - where a pendulum so long is too slow
         """
-        unloader, need = self._pendulum, whole * self.pendulum_rate
+        unloader, need = self.pendulum, whole * self.pendulum_rate
         s = 1e-3 * unloader.distance
         if need * s >= unloader.gravity:
             most = safely_below(1e3 * unloader.gravity / need)
@@ -250,11 +251,11 @@ class Motion:
     @property
     def most_pendulum_reserve(self) -> float:
         """g/(kappa s) - 1, which a pendulum of this length does not reach with any mass."""
-        return self._pendulum.gravity / (self.pendulum_rate * 1e-3 * self._pendulum.distance) - 1.0
+        return self.pendulum.gravity / (self.pendulum_rate * 1e-3 * self.pendulum.distance) - 1.0
 
     def pendulum_reserve(self, mass: float) -> float:
         """m g s/(kappa J) - 1, J = J_0 + m s^2."""
-        unloader = self._pendulum
+        unloader = self.pendulum
         return mass * unloader.gravity * 1e-3 * unloader.distance / self._moment_for(mass) - 1.0
 
     # Drive

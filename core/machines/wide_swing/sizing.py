@@ -10,14 +10,12 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import unlike
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.device import DeviceGeometry
     from gearlink.core.machines.wide_swing.motion import Motion
-    from gearlink.core.machines.wide_swing.spec import GravityDevice, Pneumatic, WideSwingSpec
+    from gearlink.core.machines.wide_swing.spec import Pneumatic, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
 
 BORES = (8, 10, 12, 16, 20, 25, 32, 40, 50, 63, 80, 100, 125, 160, 200, 250, 320)
@@ -229,12 +227,6 @@ class DeviceSize:
     # Pendulum
 
     @property
-    def _pendulum(self) -> GravityDevice:
-        unloader = self.spec.unloader
-        assert unloader.type == "gravity", "needed of a pendulum alone"
-        return unloader
-
-    @property
     def mass(self) -> float:
         """Mass that hangs at `unloader.distance` [kg]."""
         return self.motion.hanging_mass
@@ -242,7 +234,7 @@ class DeviceSize:
     @property
     def max_distance(self) -> float:
         """g/((1 + reserve) kappa), from which on a pendulum is too slow [mm]."""
-        return 1e3 * self._pendulum.gravity / ((1.0 + self.reserve) * self.motion.pendulum_rate)
+        return 1e3 * self.motion.pendulum.gravity / ((1.0 + self.reserve) * self.motion.pendulum_rate)
 
     # Over the stroke
 
@@ -250,7 +242,7 @@ class DeviceSize:
         """What the device does over the stroke, and what it leaves: torques in the sense of the stroke."""
         motion, g = self.motion, self._geometry
         sine, cosine = motion.law.pendulum(k)
-        side = np.where(k < self._middle, 1.0, -1.0)
+        side = np.where(k < motion.law.middle_place, 1.0, -1.0)
         half = np.arctan2(g.half_sine * np.abs(sine), np.hypot(g.half_cosine, g.half_sine * cosine))
         unloader = self.spec.unloader
         if unloader.type == "gravity":
@@ -276,17 +268,6 @@ class DeviceSize:
             "kinetic_energy": (moving, "J"),
         }
         return Table.of("device", columns)
-
-    @property
-    def _middle(self) -> float:
-        return 0.5 if self.spec.slider is None else self.motion.slider.middle_place
-
-
-def device_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """Length, force and torque of the device over the stroke, and what it leaves of the inertia torque."""
-    count = samples or 100
-    rows = row_numbers(samples, count + 1)
-    return design.unloading.size.table(np.arange(rows.start, rows.stop) / count)
 
 
 def free_stretch(free: float, arm: float, shortest: float, stroke: float) -> float:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.cam import CamPoints, CurveState, WideSwingCam
+from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam, mirrored
 from gearlink.core.machines.wide_swing.oscillating_cam import Home, OscillatingCam, crank_angle, way_home
 from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Points, Reals
@@ -30,57 +30,19 @@ if TYPE_CHECKING:
 AnyCam = WideSwingCam | OscillatingCam
 
 
-def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
-    """Places of the rocker's pivot in the cam's frame, the cam held still.
-
-    -a e^{i theta} external, a e^{-i theta} internal
-
-    Parameters
-        cam : WideSwingCam or OscillatingCam
-        points : CamPoints - of that cam
-    Returns
-        pivots : (N,) complex array [mm]
-    Example
-        >>> import math
-        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> cam = WideSwingCam("twin-rocker", law, math.radians(80), 200.0, 4.0)
-        >>> points = cam.points(np.array([0.0, 0.5]))
-        >>> np.abs(points.pitch - rocker_pivots(cam, points)).round(9).tolist()
-        [130.609218127, 130.609218127]
-
-    Source
-        wide-swing dissertation, figures of chapters 3 and 4
-    """
-    pivots: Points = -cam.sense * cam.center_distance * np.exp(1j * cam.sense * points.cam_angle)
-    return pivots
-
-
-def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[Points, Points, Points]:
+def contour(cam: AnyCam, count: int = 400) -> tuple[Points, Points, Points]:
     """The cam's contour over the stroke: run-up, slot of the roller at mid-swing, run-out.
 
     Parameters
         cam : WideSwingCam or OscillatingCam
-        slot : (float, float) - fractions of the stroke between which the profile is cut away
         count : int - points of each profile branch
     Returns
         run_up, slot, run_out : complex arrays [mm] - each begins where the one before it ends
     Raises
         NoSolution - for a profile that does not exist
     """
-    run_up = cam.points(np.linspace(cam.contact[0][0], slot[0], count)).profile
-    run_out = cam.points(np.linspace(slot[1], cam.contact[1][1], count)).profile
-    middle = complex(cam.points(np.array([cam.middle])).pitch[0])
-    return run_up, _slot_bottom(cam, middle, run_up[-1], run_out[0]), run_out
-
-
-def _slot_bottom(cam: AnyCam, middle: complex, start: complex, end: complex) -> Points:
-    """Arc of the roller at mid-swing from one contact point to the other, by way of the body."""
-    into_body = -cam.sense * middle / abs(middle)
-    first, last = (float(np.angle((point - middle) / into_body)) for point in (start, end))
-    angles = np.linspace(first, last, 81)
-    result: Points = middle + cam.roller_radius * into_body * np.exp(1j * angles)
-    return result
+    run_up, run_out = (cam.points(np.linspace(*part, count)).profile for part in cam.contact)
+    return run_up, mirrored(cam.slot_bottom(np.linspace(0.0, 1.0, 81)), cam.sense), run_out
 
 
 def dwell_arc(cam: AnyCam) -> Points:
@@ -167,7 +129,7 @@ class Stroke:
     def to_world(self, z: Points) -> Points:
         """From the frame in which cams are computed to the world; a mirrored stroke is its mirror image."""
         if self.design.spec.layout == "twin-rocker":
-            return np.asarray(-np.conj(z))
+            return mirrored(z, -1)
         return np.asarray(np.conj(z)) if self.mirrored else z
 
     def roller(self, k: Reals, *, resting: bool = False) -> tuple[Points, Points]:

@@ -507,12 +507,6 @@ class FlankImpact:
 
     design: WideSwingDesign
 
-    @property
-    def _middle(self) -> float:
-        """Fraction of the stroke at which the device changes sides."""
-        motion = self.design.motion
-        return 0.5 if self.design.spec.slider is None else motion.slider.middle_place
-
     @cached_property
     def _slope(self) -> tuple[float, float]:
         """|dc/dk| at mid-swing of the force that is left, with a slider |dm/dk|/j; and j there."""
@@ -520,7 +514,7 @@ class FlankImpact:
         if self.design.spec.slider is None:
             return abs(motion.plain_law.middle_jerk), 1.0
         law, g = motion.slider, motion.slider.geometry
-        speed = float(law.invariants(np.array([self._middle]), 1)[1][0])
+        speed = float(law.invariants(np.array([law.middle_place]), 1)[1][0])
         pull = float(g.force(np.zeros(1))[0]) * g.ratio / g.shortest
         inertia = law.inertia_at(0.5)
         return 0.5 * law.energy_parameter * motion.swing**2 * pull * speed / inertia, inertia
@@ -560,7 +554,8 @@ class FlankImpact:
     @property
     def place(self) -> float | None:
         """Fraction of the stroke at the blow."""
-        return None if self._time is None else self._middle + self._time / self.design.motion.working_time
+        motion = self.design.motion
+        return None if self._time is None else motion.law.middle_place + self._time / motion.working_time
 
     @property
     def _turning(self) -> tuple[float, float] | None:

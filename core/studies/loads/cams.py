@@ -165,14 +165,10 @@ class CamLoadsDesign(LoadsDesign):
             return None
         return self.machine.at(phi).once(f"contact {name}", lambda: self._contact_at(name, phi))
 
-    def _contact_at(self, name: str, phi: Reals) -> LineContact:
-        from gearlink.core.studies.loads.contact import LineContact, plane_modulus
-        from gearlink.core.studies.loads.spec import Material
+    def _contact_at(self, name: str, phi: Reals) -> LineContact | None:
+        from gearlink.core.studies.loads.contact import contact_of
 
-        material = self.section.material or Material()
-        radius = self.roller_on_cam(name, phi).relative_radius
-        modulus = plane_modulus(material.modulus, material.poisson)
-        return LineContact(self.contact_force(name, phi), radius, self.section.roller.width, modulus)
+        return contact_of(self.section, self.contact_force(name, phi), self.roller_on_cam(name, phi).relative_radius)
 
     def course(self, name: str) -> Callable[[Reals], Reals]:
         """Those of the rollers as well, `contact_force:main`."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -151,6 +151,20 @@ class LineContact:
     def shear_depth(self) -> Reals:
         """Depth of the maximum shear stress, Phi^(-1/2) b [mm]."""
         return np.asarray(SHEAR_DEPTH * self.half_width)
+
+
+def contact_of(section: Any, force: Reals, radius: Reals) -> LineContact | None:
+    """The contact of a roller of the section `loads`; None where the file gives no width.
+
+    Parameters
+        force, radius : arrays [N, mm] - N, R
+    """
+    from gearlink.core.studies.loads.spec import Material
+
+    if section.roller is None:
+        return None
+    material = section.material or Material()
+    return LineContact(force, radius, section.roller.width, plane_modulus(material.modulus, material.poisson))
 
 
 def positive_drive(force: Reals, preload: float, stiffness: tuple[float, float]) -> tuple[Reals, Reals]:

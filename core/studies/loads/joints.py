@@ -94,7 +94,55 @@ BALL, ROLLER = 3.0, 10.0 / 3.0
 _NOISE = 1e-9
 
 
-class PinLoad:
+class BearingLoad:
+    """What a bearing bears: its rating life, or its pressure where it is a plain one.
+
+    Fields
+        design : LoadsDesign
+        bearing : Bearing of the file, or None
+    """
+
+    design: LoadsDesign
+    bearing: Bearing | None
+
+    if TYPE_CHECKING:
+
+        @property
+        def peak(self) -> float | None: ...
+        @property
+        def equivalent(self) -> float | None: ...
+        @property
+        def travel(self) -> float: ...
+
+    @property
+    def exponent(self) -> float:
+        """3 for balls, 10/3 for rollers and needles."""
+        kind = "ball" if self.bearing is None else self.bearing.kind
+        return ROLLER if kind in ("roller", "needle") else BALL
+
+    @cached_property
+    def life(self) -> float | None:
+        """Basic rating life of the bearing that the file gives [h]; None where it gives none, or a plain one.
+
+        L_10 = (C/P)^p 10^6 relative turns
+        """
+        bearing = self.bearing
+        if bearing is None or bearing.dynamic_rating is None or not self.equivalent:
+            return None
+        turns = (bearing.dynamic_rating / self.equivalent) ** self.exponent * 1e6
+        per_hour = self.travel * abs(self.design.speed) / (2.0 * math.pi) * 3600.0
+        return float(turns / per_hour)
+
+    @property
+    def bearing_pressure(self) -> float | None:
+        """Maximum pressure of a plain bearing, F/(b d) [N/mm^2]."""
+        bearing = self.bearing
+        if bearing is None or bearing.width is None or bearing.diameter is None or self.peak is None:
+            return None
+        return float(self.peak / (bearing.width * bearing.diameter))
+
+
+class PinLoad(BearingLoad):
     """A pin's force and its relative turning.
 
     Parameters
@@ -139,12 +187,6 @@ class PinLoad:
         machine = self.design.machine
         return zeros(self.rate, machine.period, machine.turns)
 
-    @property
-    def exponent(self) -> float:
-        """3 for balls, 10/3 for rollers and needles."""
-        kind = "ball" if self.bearing is None else self.bearing.kind
-        return ROLLER if kind in ("roller", "needle") else BALL
-
     @cached_property
     def way(self) -> float:
         """Relative turning over the period, both senses counted [rad]."""
@@ -177,27 +219,6 @@ class PinLoad:
             return (way,)
         force = machine.reactions(phi).force(self.name)
         return way, way * (np.abs(force) / (self.peak or 1.0)) ** self.exponent
-
-    @cached_property
-    def life(self) -> float | None:
-        """Basic rating life of the bearing that the file gives [h]; None where it gives none, or a plain one.
-
-        L_10 = (C/P)^p 10^6 relative turns
-        """
-        bearing = self.bearing
-        if bearing is None or bearing.dynamic_rating is None or not self.equivalent:
-            return None
-        turns = (bearing.dynamic_rating / self.equivalent) ** self.exponent * 1e6
-        per_hour = self.travel * abs(self.design.speed) / (2.0 * math.pi) * 3600.0
-        return float(turns / per_hour)
-
-    @property
-    def bearing_pressure(self) -> float | None:
-        """Maximum pressure of a plain bearing, F/(b d) [N/mm^2]."""
-        bearing = self.bearing
-        if bearing is None or bearing.width is None or bearing.diameter is None or self.peak is None:
-            return None
-        return float(self.peak / (bearing.width * bearing.diameter))
 
     @cached_property
     def swing(self) -> float | None:

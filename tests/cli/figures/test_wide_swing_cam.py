@@ -131,7 +131,7 @@ def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
     for name in ("twin_cam", "twin_rocker"):
         made = design(f"wide_swing_{name}", command="cam")
         cam = made.cam
-        run_up, slot, run_out = contour(cam, made.slot_of(cam))
+        run_up, slot, run_out = contour(cam)
         rest = dwell_arc(cam)
         closed = ((run_up, slot), (slot, run_out), (run_out, rest), (rest, run_up))
         for one, other in closed:
