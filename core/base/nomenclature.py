@@ -737,7 +737,9 @@ _SWING = {
     "slider_acceleration_peak": Term("C_s", "1", "peak of the slider's acceleration invariant", "own derivation"),
     "crank_span": Term("phi_k", "deg", "crank angle between the dead centres of the cam's drive", "own derivation"),
     "cam_swing": Term("chi", "deg", "swing of an oscillating cam", "dissertation, chapter 4"),
-    "middle_pressure_angle": Term("alpha_m", "deg", "pressure angle that an oscillating cam keeps at mid-swing"),
+    "middle_pressure_angle": Term(
+        "alpha_m", "deg", "pressure angle that an oscillating cam keeps at mid-swing, signed as in the table of the cam"
+    ),
 }
 
 _MOBILITY = {

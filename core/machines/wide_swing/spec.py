@@ -300,7 +300,9 @@ class SwingSlider(Spec):
     crank: Length = Field(description="arm of the rocker that the rod is joined to")
     rod: Length = Field(description="connecting rod")
     middle_angle: Angle = Field(description="that arm at mid-swing, from the direction in which the slider is farthest")
-    offset: SignedLength = Field(0.0, description="offset of the slide line")
+    offset: SignedLength = Field(
+        0.0, description="offset of the slide line; positive: the rod's height is crank sin(angle) + offset"
+    )
     mass: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})] = Field(description="mass of the slider")
 
 
