@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +15,8 @@ import numpy as np
 
 from gearlink.core.base.candidates import Sought, nothing_sought, table
 from gearlink.core.base.design import Found, Outline, placed
-from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key
+from gearlink.core.base.many_designs import column, hand_on, in_groups, sought, stacked
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
@@ -21,12 +24,13 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short, unlike
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, outputs
-from gearlink.core.machines.five_bar.path import extent, rates
+from gearlink.core.machines.five_bar.path import extent, rates, spread
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.numerics.lm import State, descend
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.numerics.quasi_random import halton
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, mesh_quantity, named, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
@@ -146,10 +150,8 @@ def path_extremes(bar: PathFiveBar, offset: complex) -> dict[str, float]:
         58.52755
     """
 
-    def size(order: int, phi: Reals) -> Reals:
-        return np.asarray(np.abs(rates(bar, phi, offset)[order]))
-
-    curves = {"velocity": lambda phi: size(0, phi), "acceleration": lambda phi: size(1, phi)}
+    found = kept_last(lambda phi: rates(bar, phi, offset))
+    curves = {"velocity": lambda phi: np.abs(found(phi)[0]), "acceleration": lambda phi: np.abs(found(phi)[1])}
     waves = bar.period_turns * max(1.0, abs(float(bar.ratio)))
     return extremes(curves, 0.0, bar.period, samples=min(_MOST, math.ceil(_PER_WAVE * waves)))
 
@@ -162,15 +164,9 @@ def function_extremes(bar: FunctionFiveBar, start: float, end: float) -> dict[st
         start, end : float [rad] - it closes between them
     """
 
-    def of(rate: str, phi: Reals) -> Reals:
-        function = getattr(bar, rate)
-        return np.array([function(angle) for angle in phi.tolist()])
-
-    curves = {
-        "speed_ratio": lambda phi: of("output_speed", phi),
-        "acceleration_ratio": lambda phi: of("output_acceleration", phi),
-    }
-    waves = (end - start) / _EXTREMES_TURN * max(1.0, abs(bar.coupler_ratio))
+    rates = kept_last(bar.output_rates)
+    curves = {"speed_ratio": lambda phi: rates(phi)[0], "acceleration_ratio": lambda phi: rates(phi)[1]}
+    waves = float(np.max(end - start)) / _EXTREMES_TURN * max(1.0, abs(bar.coupler_ratio))
     return extremes(curves, start, end, samples=max(64, min(_MOST, math.ceil(_PER_WAVE * waves))))
 
 
@@ -843,6 +839,15 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
     assembly: int = placed("bar.assembly")
 
     extreme_names = (*_OF_PATH, *_OF_FUNCTION)
+    at_once = 64
+
+    @classmethod
+    def find_together(cls, designs: Sequence[GearedFiveBar], names: Sequence[str]) -> None:
+        """Extremes of the motion, and how far paths extend."""
+        closed = [design for design in designs if _closes(design)]
+        for group in in_groups(closed, lambda design: (design.is_path, design.ratio, design.spec.assembly)):
+            sought(partial(_find_extremes, frozenset(names)), group)
+
     point_speed_max: float | None = per_time("velocity_max", 1)
     point_speed_min: float | None = per_time("velocity_min", 1)
     point_acceleration_max: float | None = per_time("acceleration_max", 2)
@@ -1146,3 +1151,29 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
             f"input angle {short(math.degrees(self.min_transmission_angle_at))} deg",
         )
         return transmission_check(self.min_transmission_angle, limit, "lengthen the two links of the dyad", at=at)
+
+
+def _closes(design: GearedFiveBar) -> bool:
+    """Whether there is a five-bar; what is wrong with another it says itself."""
+    with suppress(GearlinkError):
+        return bool(design.bar)
+    return False
+
+
+_OF_EXTREMES = {
+    *GearedFiveBar.extreme_names, *OUTPUT_SPEEDS, "point_speed_max", "point_speed_min", "point_acceleration_max"
+}  # fmt: skip
+
+
+def _find_extremes(asked: frozenset[str], designs: Sequence[GearedFiveBar]) -> None:
+    moving, many = not asked.isdisjoint(_OF_EXTREMES), stacked([design.bar for design in designs])
+    if isinstance(many, FunctionFiveBar):
+        start, end = (column(ends) for ends in zip(*(design.input_range for design in designs), strict=True))
+        if moving:
+            hand_on(designs, motion_extremes=function_extremes(many, start, end))
+        return
+    offset = column([design.offset for design in designs])
+    if moving:
+        hand_on(designs, motion_extremes=path_extremes(many, offset))
+    if not asked.isdisjoint(("path_width", "path_height")):
+        hand_on(designs, _extent=spread(many, offset))

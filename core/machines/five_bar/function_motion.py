@@ -13,6 +13,7 @@ import cmath
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, product
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.parts.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
@@ -81,40 +82,46 @@ class FunctionFiveBar:
         """
         return cmath.phase(self.end(phi) - self.frame)
 
-    def output_speed(self, phi: float) -> float:
-        """Output speed per input speed.
+    def output_rates(self, phi: Reals) -> tuple[Reals, Reals]:
+        """Output speed per input speed, and output acceleration per square of that; NaN where the five-bar opens.
 
         w4 = Re[C' e^(-i t3)]/(e sin(t3 - psi)),   t3 the direction C->D
-
-        Raises
-            NoSolution - where follower and output do not reach
-        """
-        speed = 1j * cmath.rect(self.input, phi)
-        speed += 1j * self.coupler_ratio * cmath.rect(self.coupler, self.phase + self.coupler_ratio * phi)
-        end = self.end(phi)
-        along, arm = (end - self.joint(phi)) / self.follower, (end - self.frame) / self.output
-        return (speed * along.conjugate()).real / (self.output * (along * arm.conjugate()).imag)
-
-    def output_acceleration(self, phi: float) -> float:
-        """Output acceleration per square of the input speed, d2psi/dphi2.
-
         a4 = (Re[C'' e^(-i t3)] - c w3^2 + e w4^2 cos(psi - t3))/(e sin(t3 - psi))
 
-        Raises
-            NoSolution - where follower and output do not reach
+        Parameters
+            phi : (N,) array [rad]
         Source
             own derivation: the loop C + c e^(i t3) = E + e e^(i psi), differentiated twice
         """
         m = self.coupler_ratio
-        crank, coupler = cmath.rect(self.input, phi), cmath.rect(self.coupler, self.phase + m * phi)
-        end = self.end(phi)
-        along, arm = (end - self.joint(phi)) / self.follower, (end - self.frame) / self.output
-        turn = along * arm.conjugate()
-        w3 = (1j * (crank + m * coupler) * arm.conjugate()).real / (self.follower * turn.imag)
-        w4 = self.output_speed(phi)
-        pull = -((crank + m * m * coupler) * along.conjugate()).real
-        pull += self.output * w4 * w4 * turn.real - self.follower * w3 * w3
-        return pull / (self.output * turn.imag)
+        crank, coupler, end = self._ends(phi)
+        along, arm = (end - crank - coupler) / self.follower, (end - self.frame) / self.output
+        turn, speed = product(along, arm.conj()), 1j * (crank + m * coupler)
+        w3 = (speed.real * arm.real + speed.imag * arm.imag) / (self.follower * turn.imag)
+        w4 = (speed.real * along.real + speed.imag * along.imag) / (self.output * turn.imag)
+        bend = crank + m * m * coupler
+        pull = self.output * w4 * w4 * turn.real - self.follower * w3 * w3
+        pull -= bend.real * along.real + bend.imag * along.imag
+        return w4, pull / (self.output * turn.imag)
+
+    def _ends(self, phi: Reals) -> tuple[Points, Points, Points]:
+        """The vectors of crank and coupler, and the pin D [mm]; NaN where the five-bar opens."""
+        crank, coupler = (
+            self.input * np.exp(1j * phi),
+            self.coupler * np.exp(1j * (self.phase + self.coupler_ratio * phi)),
+        )
+        joint = crank + coupler
+        way = self.frame - joint
+        n = np.abs(way)
+        c, e = self.follower, self.output
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rise = 0.5 * np.sqrt((n - c + e) * (n + c - e) * (c + e - n) * (c + e + n))
+            along = 0.5 * (n * n + (c - e) * (c + e))
+            return crank, coupler, joint + way * (along + 1j * self.assembly * rise) / (n * n)
+
+    def directions(self, phi: Reals) -> Reals:
+        """Directions of the output link in (-pi, pi] [rad]; NaN where the five-bar opens."""
+        return np.asarray(np.angle(self._ends(phi)[2] - self.frame))
 
     @cached_property
     def reach_squared(self) -> HarmonicSum:
@@ -247,16 +254,7 @@ def outputs(bar: FunctionFiveBar, phi: Reals) -> Reals:
     Notes
         The steps must be so small that the output turns by less than half a revolution in each.
     """
-    turn: Points = np.exp(1j * phi)
-    joint = bar.input * turn + bar.coupler * np.exp(1j * (bar.phase + bar.coupler_ratio * phi))
-    way = bar.frame - joint
-    n = np.abs(way)
-    c, e = bar.follower, bar.output
-    with np.errstate(invalid="ignore", divide="ignore"):
-        rise = 0.5 * np.sqrt((n - c + e) * (n + c - e) * (c + e - n) * (c + e + n))
-        along = 0.5 * (n * n + (c - e) * (c + e))
-        end = joint + way * (along + 1j * bar.assembly * rise) / (n * n)
-    return np.unwrap(np.angle(end - bar.frame))
+    return np.unwrap(bar.directions(phi))
 
 
 def structural_error(bar: FunctionFiveBar, start: float, wanted: Wanted) -> StructuralError:
@@ -287,18 +285,17 @@ def structural_error(bar: FunctionFiveBar, start: float, wanted: Wanted) -> Stru
 
     def error(share: Reals) -> Reals:
         near = np.asarray(np.interp(share, s, base))
-        each = np.array([bar.output_angle(start + wanted.input_swing * float(x)) for x in np.atleast_1d(share)])
+        each = bar.directions(start + wanted.input_swing * np.atleast_1d(share))
         psi = near + np.remainder(each - near + math.pi, 2.0 * math.pi) - math.pi
         return np.asarray(psi - wanted.output(share))
 
     rough = base - wanted.output(s)
-    inside = [i for i in range(1, s.size - 1) if (rough[i] - rough[i - 1]) * (rough[i + 1] - rough[i]) < 0.0]
-    places = [0.0]
-    for i in inside:
-        side = 1.0 if rough[i] > rough[i - 1] else -1.0
-        top = maximum_over(lambda x, side=side: side * error(x), s[i - 1], s[i + 1], samples=4)  # type: ignore[misc]
-        places.append(float(top.place))
-    places.append(1.0)
+    rise, fall = rough[1:-1] - rough[:-2], rough[2:] - rough[1:-1]
+    inside, places = np.flatnonzero(rise * fall < 0.0)[:, None] + 1, [0.0, 1.0]
+    if inside.size:
+        side = np.sign(rise[inside - 1])
+        tops: Any = maximum_over(lambda x: side * error(x), s[inside - 1], s[inside + 1], samples=4)  # type: ignore[arg-type]
+        places[1:1] = tops.place.ravel().tolist()
     values = error(np.array(places))
     middle = 0.5 * float(values.max() + values.min())
     return StructuralError(

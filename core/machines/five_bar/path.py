@@ -10,6 +10,7 @@ from gearlink.core.machines.five_bar.family import near_places
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import Points, Reals, product
 from gearlink.core.numerics.extremes import Extreme, extremes_over
+from gearlink.core.numerics.together import kept_last
 
 _PER_TURN, _FEW_TURNS, _PER_WAVE = 720, 4, 48
 # So many branches of a path that crosses itself are tried for each point.
@@ -105,16 +106,17 @@ def extent(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme
         NoSolution - where the five-bar opens
     """
     bar.closure()
-    end, count = bar.period, _places(bar)
+    return spread(bar, offset)
 
-    def part(direction: complex) -> tuple[Extreme, Extreme]:
-        def along(phi: Reals) -> Reals:
-            return np.asarray((points(bar, phi, offset) * np.conj(direction)).real)
 
-        least, greatest = extremes_over([(along, False), (along, True)], 0.0, end, samples=count)
-        return least, greatest
-
-    return (*part(1.0 + 0j), *part(1j))
+def spread(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
+    """The same of a five-bar that closes; of one whose numbers are columns the extremes of each."""
+    place = kept_last(lambda phi: points(bar, phi, offset))
+    x, y = (lambda phi: place(phi).real), (lambda phi: place(phi).imag)
+    left, right, low, high = extremes_over(
+        [(x, False), (x, True), (y, False), (y, True)], 0.0, bar.period, samples=_places(bar)
+    )
+    return left, right, low, high
 
 
 def distances(bar: PathFiveBar, offset: complex, targets: Points) -> tuple[Reals, Reals]:

@@ -201,7 +201,10 @@ def test_function_closes_and_its_speed_is_the_derivative():
         assert abs(end - 38.0) == pytest.approx(40.0, rel=1e-14)
         h = 1e-6
         slope = (FUNCTION.output_angle(phi + h) - FUNCTION.output_angle(phi - h)) / (2.0 * h)
-        assert FUNCTION.output_speed(phi) == pytest.approx(slope, abs=1e-8)
+        speed, acceleration = FUNCTION.output_rates(np.array([phi - h, phi, phi + h]))
+        assert speed[1] == pytest.approx(slope, abs=1e-8)
+        assert acceleration[1] == pytest.approx((speed[2] - speed[0]) / (2.0 * h), abs=1e-8)
+        assert FUNCTION.directions(np.array([phi]))[0] == pytest.approx(FUNCTION.output_angle(phi), rel=1e-14)
 
 
 def test_planet_rolls_on_the_fixed_sun():
