@@ -19,7 +19,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages import slider_crank
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar import position as fourbar
-from gearlink.core.parts.linkages.fourbar.loop import rocker_and_rate, rocker_rate
+from gearlink.core.parts.linkages.fourbar.loop import Reading, rocker_and_rate, rocker_rate
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
@@ -139,6 +139,16 @@ class BedChain:
         rocker = fourbar.solve(self.linkage, self.initial_crank_angle).rocker_angle
         return rocker, self._slider(rocker, 0)[0]
 
+    @cached_property
+    def inverse(self) -> Reading:
+        """The linkage with CD driving."""
+        return fourbar.inverse_reading(self.linkage)
+
+    @cached_property
+    def start_input(self) -> float:
+        """Direction of AB at the start, as it is found from that of CD [rad]."""
+        return fourbar.solve_inverse(self.linkage, self._start[0]).crank_angle
+
     @property
     def cam_angle_start(self) -> float:
         """Direction of DC [rad] at the start, from which the cam angle counts."""
@@ -167,9 +177,9 @@ class BedChain:
 
     def input_angle(self, cam_angle: Any) -> Any:
         """Input angle [rad] at a cam angle [rad]; a drag link gives exactly one."""
-        state = _solver(cam_angle).solve_inverse(self.linkage, self._start[0] + cam_angle)
-        start = fourbar.solve_inverse(self.linkage, self._start[0])
-        return state.crank_angle - start.crank_angle
+        linkage = self.linkage if isinstance(cam_angle, (float, int)) else self.inverse
+        state = _solver(cam_angle).solve_inverse(linkage, self._start[0] + cam_angle)
+        return state.crank_angle - self.start_input
 
     def travel(self, input_angle: Any, order: int = 0, cam: Travel | None = None) -> Travel:
         """Travel of the bed [mm] before compensation, with `order` derivatives.

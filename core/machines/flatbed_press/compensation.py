@@ -10,7 +10,7 @@ Where it cannot make its lift, the nearest cause is said first, and the key that
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -278,16 +278,21 @@ class Compensation:
             return self._arc(theta)[0]
         return powers(theta - self.cam_sync_end, order, self._transition_terms)
 
+    @cached_property
+    def arc_radius(self) -> float | None:
+        """Radius of the arc in the plot of lift [mm] over cam angle [deg]; None where it is level."""
+        per_degree = math.radians(self.end_slope)
+        span = math.degrees(self.transition_end - self.cam_sync_end)
+        return span / math.sin(math.atan(per_degree)) if per_degree else None
+
     def _arc(self, theta: Any) -> tuple[Travel, Any]:
         """Arc in the plot of lift [mm] over cam angle [deg], tangent to the zone's end slope and to the level.
 
         Lift with two derivatives, and the third.
         """
-        per_degree = math.radians(self.end_slope)
-        if per_degree == 0.0:
+        radius = self.arc_radius
+        if radius is None:
             return Travel(self.top + 0.0 * theta, 0.0 * theta, 0.0 * theta), 0.0 * theta
-        span = math.degrees(self.transition_end - self.cam_sync_end)
-        radius = span / math.sin(math.atan(per_degree))
         scale = 180.0 / math.pi
         x = (self.transition_end - theta) * scale / radius
         root = (1.0 - x * x) ** 0.5
@@ -435,20 +440,29 @@ class Compensation:
     @cached_property
     def lift_range(self) -> tuple[float, float]:
         """Minimum and maximum lift of the turn [mm], refined inside each stretch."""
-        low = high = 0.0
-        for segment in self.segments[:-1]:
-            least, most = _range(segment)
-            low, high = min(low, least), max(high, most)
-        return low, high
+        return peaks(self.segments, map(_scan, self.segments[:-1]))
 
 
-def _range(segment: Segment) -> tuple[float, float]:
-    """Minimum and maximum lift on a stretch: coarse scan, then the root of the slope, or golden section, round them."""
-    steps = 24
-    grid = [segment.start + (segment.end - segment.start) * i / steps for i in range(steps)] + [segment.end]
-    values = [float(segment.lift(theta, 0).value) for theta in grid]
-    least = -_peak(segment, -1.0, grid, [-value for value in values])
-    return least, _peak(segment, 1.0, grid, values)
+STEPS = 24
+
+
+def _scan(segment: Segment) -> tuple[list[float], list[float]]:
+    """Evenly spaced places on a stretch, and the lift there."""
+    grid = [segment.start + (segment.end - segment.start) * i / STEPS for i in range(STEPS)] + [segment.end]
+    return grid, [float(segment.lift(theta, 0).value) for theta in grid]
+
+
+def peaks(segments: Sequence[Segment], scanned: Iterable[tuple[list[float], list[float]]]) -> tuple[float, float]:
+    """Minimum and maximum lift of the turn: round those of each scan, the root of the slope or golden section.
+
+    Parameters
+        scanned : of all stretches but the dwell, as `_scan` gives them
+    """
+    low = high = 0.0
+    for segment, (grid, values) in zip(segments[:-1], scanned, strict=True):
+        low = min(low, -_peak(segment, -1.0, grid, [-value for value in values]))
+        high = max(high, _peak(segment, 1.0, grid, values))
+    return low, high
 
 
 def _peak(segment: Segment, sign: float, grid: list[float], values: list[float]) -> float:

@@ -864,9 +864,17 @@ class PressCams(DiscCams):
         """Main and return cam."""
         return self._pair(self.base_radius)
 
+    @property
+    def radii_at_rest(self) -> tuple[float, float]:
+        """Where the centres of both rollers stand at zero lift, on the line of travel [mm]."""
+        return self._at_rest(self.base_radius)
+
+    def _at_rest(self, base_radius: float) -> tuple[float, float]:
+        return base_radius, base_radius - self._distance(base_radius)
+
     def _pair(self, base_radius: float) -> tuple[DiscCam, DiscCam]:
-        back = base_radius - self._distance(base_radius)
-        return self._disc_cam("main cam", base_radius), self._disc_cam("return cam", back)
+        main, back = self._at_rest(base_radius)
+        return self._disc_cam("main cam", main), self._disc_cam("return cam", back)
 
     def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
         from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -1060,6 +1068,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     derived = DERIVED
     extreme_names = _EXTREMES
+    at_once = 64
     motion_extremes: dict[str, float] = placed("motion.extremes")
     extra_tables = (
         "chains",
@@ -1073,6 +1082,14 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     )
     requirements = Design.requirements | {"sync.print_length"}
     cost = 5.0
+
+    @classmethod
+    def find_together(cls, designs: Sequence[FlatbedPress], names: Sequence[str]) -> None:
+        """Extremes of the cams."""
+        from gearlink.core.machines.flatbed_press.together import find_together
+
+        if not {*_CAM, *_CAM_CHECKS}.isdisjoint(names):
+            find_together([design.cams for design in designs if design.spec.cam is not None])
 
     def candidates(self, check: str) -> Iterator[Remedy]:
         """Remedies of a check from closed forms, the first to be tried first."""
