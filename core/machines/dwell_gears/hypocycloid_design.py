@@ -177,23 +177,30 @@ class HypocycloidSlider:
     @cached_property
     def fastest(self) -> tuple[float, float]:
         """Maximum speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
-        return self._greatest(self.speed, self.acceleration)
+        return self._greatest(self.speed, self._zeros_of(self.acceleration))
 
     @cached_property
     def hardest(self) -> tuple[float, float]:
         """Maximum acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
-        return self._greatest(self.acceleration, self.jerk)
+        return self._greatest(self.acceleration, self._without_jerk)
 
     @cached_property
     def hardest_inwards(self) -> tuple[float, float]:
         """Maximum acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
-        value, place = self._greatest(lambda t: -self.acceleration(t), self.jerk)
+        value, place = self._greatest(lambda t: -self.acceleration(t), self._without_jerk)
         return -value, place
 
-    def _greatest(self, f: Callable[[float], float], slope: Callable[[float], float]) -> tuple[float, float]:
+    @cached_property
+    def _without_jerk(self) -> list[float]:
+        return self._zeros_of(self.jerk)
+
+    def _zeros_of(self, f: Callable[[float], float]) -> list[float]:
         count = 2 * _STEPS_PER_ARC * self.cusps
-        grid = [_TURN * (i + 0.5) / count for i in range(count)]
-        value, place = max((f(t), -t) for t in (0.0, math.pi, *roots_on(slope, grid)))
+        return roots_on(f, [_TURN * (i + 0.5) / count for i in range(count)])
+
+    @staticmethod
+    def _greatest(f: Callable[[float], float], places: list[float]) -> tuple[float, float]:
+        value, place = max((f(t), -t) for t in (0.0, math.pi, *places))
         return value, -place
 
     @property

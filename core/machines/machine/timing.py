@@ -49,6 +49,7 @@ _SAMPLES, _FEWEST = 720, 33
 _ROUND = 1e-9  # deg: events that are nearer to a whole revolution stand upon it
 _WORDS = {1: "rise", -1: "return", 0: "dwell"}
 _FULL = 360.0
+_MOST_KEPT = 1000
 
 
 class Stretch(NamedTuple):
@@ -254,6 +255,8 @@ class Timing:
         if member.driver is None:
             known = self.members.known[member.name].offsets
         if key not in known:
+            if len(known) >= _MOST_KEPT:  # of events of many machines
+                known.clear()
             known[key] = self._offset(moment, event)
         return self.spec.root(member.name), known[key]
 

@@ -119,9 +119,16 @@ class PlanetLinkage:
         carrier = float(order == 1) if self.carrier == "crank" else rocker
         return (1.0 - self.ratio) * carrier + self.ratio * coupler
 
+    @cached_property
+    def turnings(self) -> tuple[Turning, ...]:
+        """Extremes of the output's speed ratio over the turn."""
+        return tuple(standstills.turnings(self.speed, self.acceleration))
+
     def coupler_turnings(self) -> list[Turning]:
-        """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
+        """Extremes of the coupler's speed per crank speed; where the crank carries they are those of the output."""
         links = self.linkage.reading
+        if self.carrier == "crank":
+            return [Turning(place, rates_of(links, place, 1)[0]) for place, _ in self.turnings]
         return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])
 
     def mean_ratio(self) -> float:

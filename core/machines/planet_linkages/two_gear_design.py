@@ -254,7 +254,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     @cached_property
     def speed_turnings(self) -> list[Turning]:
         """Extremes of the speed ratio."""
-        return [Turning(t.place, self.drive.speed(t.place)) for t in self.coupler_turnings]
+        return list(self.drive.turnings)
 
     @property
     def running(self) -> tuple[Any, Any, Any]:

@@ -225,7 +225,7 @@ def quiet_end(family: Family) -> float:
 @lru_cache(maxsize=16)  # a valley, its back-step and its window look at the same ones
 def turnings(drive: PlanetLinkage) -> tuple[Turning, ...]:
     """Extremes of the speed ratio over the turn."""
-    return tuple(standstills.turnings(drive.speed, drive.acceleration))
+    return drive.turnings
 
 
 @lru_cache(maxsize=16)
