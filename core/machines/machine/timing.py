@@ -79,7 +79,7 @@ def stretches(rate: Callable[[Reals], Reals], start: float, end: float, joints: 
     nothing = _NOTHING * max(float(np.abs(each).max()) for each in values)
     found: list[Stretch] = []
     for (a, b), grid, seen in zip(pairwise(bounds), grids, values, strict=True):
-        found += _between(rate, (a, b), grid, np.where(np.abs(seen) <= nothing, 0.0, np.sign(seen)))
+        found += _between(rate, (a, b), grid, np.where(np.abs(seen) <= nothing, 0.0, seen))
     return _merged(found, start, end)
 
 
@@ -88,22 +88,23 @@ def _inside(a: float, b: float, whole: float) -> Reals:
     return a + (b - a) * (np.arange(count) + 0.5) / count
 
 
-def _between(rate: Callable[[Reals], Reals], ends: tuple[float, float], grid: Reals, signs: Reals) -> list[Stretch]:
+def _between(rate: Callable[[Reals], Reals], ends: tuple[float, float], grid: Reals, seen: Reals) -> list[Stretch]:
     """Between two joints."""
-    moving = np.flatnonzero(signs)
+    moving, signs = np.flatnonzero(seen), np.sign(seen)
     if not moving.size:
         return [Stretch(*ends, 0)]
     cuts, senses = [ends[0]], [int(signs[moving[0]])]
     for i, j in pairwise(moving.tolist()):
         if signs[i] != signs[j]:
-            cuts.append(_root(rate, np.array([grid[i], grid[j]])))
+            cuts.append(_root(rate, grid[[i, j]], seen[[i, j]]))
             senses.append(int(signs[j]))
     return [Stretch(a, b, sense) for (a, b), sense in zip(pairwise([*cuts, ends[1]]), senses, strict=True)]
 
 
-def _root(f: Callable[[Reals], Reals], ends: Reals) -> float:
-    """Where a function changes its sign between two places, or at one."""
-    return bracketed_root(lambda x: float(f(np.array([x]))[0]), float(ends[0]), float(ends[-1]))
+def _root(f: Callable[[Reals], Reals], places: Reals, values: Reals) -> float:
+    """Where a function changes its sign between two places, or at one, with its values there."""
+    low, high = values.tolist()
+    return bracketed_root(lambda x: float(f(np.array([x]))[0]), *places.tolist(), ends=(low, high))
 
 
 def _merged(found: Sequence[Stretch], start: float, end: float) -> list[Stretch]:
@@ -283,7 +284,8 @@ class Timing:
             seen = off(grid)
             if run.name != "dwell" and seen[0] * seen[-1] <= 0.0:
                 change = int(np.argmax(np.sign(seen) != np.sign(seen[0])))
-                return _root(off, grid[change - 1 : change + 1]) if seen[0] else run.start
+                beside = slice(change - 1, change + 1)
+                return _root(off, grid[beside], seen[beside]) if seen[0] else run.start
         where = f" in {event.on}" if event.on else ""
         message = f"{event.of} does not pass {event.output:g}{where}: {self._range(event.of)}"
         raise NoSolution(message, key=f"events.{name}.output")
