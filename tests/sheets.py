@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from functools import cache
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +16,9 @@ from factory import changed, design, worked
 from sweeps import mostly_slow
 
 from gearlink.cli.views.figures.write import draw, panels
+
+_kept = lru_cache(maxsize=128)
+"""What the tests of one file draw; with all sheets a process of the slow tests grew to 4 GB."""
 
 
 class Sheet(NamedTuple):
@@ -46,18 +49,18 @@ def _as_key(given: str | Mapping[str, Any], keys: dict[str, Any]) -> str:
     return json.dumps(changed(worked(given) if isinstance(given, str) else given, **keys))
 
 
-@cache
+@_kept
 def _made(data: str, command: str) -> Any:
     return design(json.loads(data), command=command)
 
 
-@cache
+@_kept
 def _drawn(data: str, command: str) -> Sheet:
     made = _made(data, command)
     return Sheet(made, panels(command, made))
 
 
-@cache
+@_kept
 def _placed(data: str, command: str) -> Sheet:
     made = _made(data, command)
     return Sheet(made, draw(command, made))
