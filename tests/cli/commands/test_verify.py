@@ -132,7 +132,7 @@ def test_a_prefix_chooses_and_shows_every_number(gearlink: Any) -> None:
     assert ended.status == 0
     assert "R. S. Khurmi" in ended.out
     assert re.search(r"path of contact \[mm\] +28\.04 +28\.035 +-0\.0047 +0\.005$", ended.out, re.MULTILINE)
-    assert ended.out.endswith("4 of 4 numbers met\n")
+    assert ended.out.endswith("6 of 6 numbers met\n")
     one = gearlink("verify", "khurmi-12.7", "-f", "csv")
     assert one.out.splitlines()[5].split(",") == COLUMNS
 
