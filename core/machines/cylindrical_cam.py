@@ -169,7 +169,7 @@ class CylindricalCamDesign(OfFollower, Design):
         "pressure-angle": (up("cam.radius"), down("cam.depth")),
         "cam-undercut": (up("cam.radius"), down("follower.roller_radius")),
     }
-    extra_tables = ("walls", LAW_TABLE)
+    extra_tables = ("segments", "walls", LAW_TABLE)
     advises = False
 
     @cached_property

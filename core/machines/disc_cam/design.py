@@ -129,7 +129,15 @@ class DiscCamDesign(OfFollower, Design):
         "outer-wall": (*_ENLARGED, down("follower.roller_radius")),
         "cutter-radius": (down("cam.cutter_radius"),),
     }
-    extra_tables: ClassVar[tuple[str, ...]] = ("outer_wall", "cutter", "radius", "errors", "servo", LAW_TABLE)
+    extra_tables: ClassVar[tuple[str, ...]] = (
+        "segments",
+        "outer_wall",
+        "cutter",
+        "radius",
+        "errors",
+        "servo",
+        LAW_TABLE,
+    )
     advises = False
 
     @cached_property

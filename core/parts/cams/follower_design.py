@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes
@@ -15,7 +16,7 @@ from gearlink.core.parts.cams.shaped_design import WithShapedLaws
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Found
-    from gearlink.core.parts.cams.follower_motion import FollowerMotion
+    from gearlink.core.parts.cams.follower_motion import FollowerMotion, Piece
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.shaped import Phase
 
@@ -130,6 +131,31 @@ class OfFollower(WithExtremes, WithShapedLaws):
         columns |= {name: (rate, unit) for name, rate, unit in zip(_CURVES[1:], rates, self._units, strict=True)}
         return Table.of("follower", {**columns, "segment": (self.follower_motion.numbers(phi), "1")})
 
+    def table_segments(self, _samples: int | None = None) -> Table:
+        """Each segment with its law and the extremes of its velocity and acceleration, in time as well at a speed."""
+        if not isinstance(self.spec.motion, list):
+            raise MissingSection("the table segments needs motion by segments", key="motion")
+        pieces = self.follower_motion.pieces
+        found = [_extremes_within(piece) for piece in pieces]
+        lifts = [math.degrees(piece.high) if self.rocks else piece.high for piece in pieces]
+        columns: dict[str, tuple[Any, str]] = {
+            "segment": ([piece.number for piece in pieces], "1"),
+            "start": ([math.degrees(piece.start) for piece in pieces], "deg"),
+            "end": ([math.degrees(piece.end) for piece in pieces], "deg"),
+            "law": ([piece.name for piece in pieces], "1"),
+            "lift": (lifts, "deg" if self.rocks else "mm"),
+        }
+        length = "rad" if self.rocks else "mm"
+        for order, curve in enumerate(_CURVES[1:3], 1):
+            for name in (f"{curve}_max", f"{curve}_min"):
+                columns[name] = ([each[name] for each in found], self._units[order - 1])
+        if self.speed is not None:
+            for order, curve in enumerate(_CURVES[1:3], 1):
+                unit = f"{length}/s" if order == 1 else f"{length}/s^2"
+                for name in (f"{curve}_max", f"{curve}_min"):
+                    columns[f"follower_{name}"] = ([each[name] * self.speed**order for each in found], unit)
+        return Table.of("segments", columns)
+
     @property
     def _units(self) -> tuple[str, str, str]:
         return ("1", "1/rad", "1/rad^2") if self.rocks else ("mm/rad", "mm/rad^2", "mm/rad^3")
@@ -158,3 +184,11 @@ class OfFollower(WithExtremes, WithShapedLaws):
         status: Status = "warn" if limit is not None and abs(step) > limit else "pass"
         what, fix = "step of the lift's jerk", "take the law polynomial-4567"
         return JERK_STEP.check(status, what, abs(step), limit, unit, at=place, fix=fix)
+
+
+def _extremes_within(piece: Piece) -> Mapping[str, float]:
+    """Extremes of velocity and acceleration of a segment by the cam angle, both ends as its own law has them."""
+    curves = {
+        name: (lambda x, order=order: piece.evaluate(x, order)[order]) for order, name in enumerate(_CURVES[1:3], 1)
+    }
+    return extremes(curves, 0.0, 1.0, joints=piece.joints)

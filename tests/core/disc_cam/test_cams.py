@@ -322,3 +322,47 @@ def test_a_failing_cam_is_told_a_value_that_was_tried(cam: dict[str, float], cod
     assert (check.code, check.remedy[0][0]) == (code, key)
     changed = data | {"cam": cam | {key.removeprefix("cam."): check.remedy[0][1]}}
     assert all(one.status == "pass" for one in factory.design(changed, command="cam").report("cam").checks)
+
+
+def test_segments_have_the_peaks_of_their_own_laws() -> None:
+    """Closed forms: pi h/2b, pi^2 h/2b^2; 2h/b, 4h/b^2; 2h/b, 2 pi h/b^2. The other side of a joint is not counted."""
+    parabola = {"scca": [0.0, 1.0, 0.0, 0.0]}
+    motion = [
+        {"to": 120, "lift": 50, "law": "simple-harmonic"},
+        {"to": 150},
+        {"to": 210, "lift": 20, "law": parabola},
+        {"to": 300, "lift": 0, "law": "cycloidal"},
+        {"to": 360},
+    ]
+    table = cam(motion, ROLLER, {"prime_radius": 100}, speed=100).table("segments")
+    rows = [dict(zip(table.columns, row, strict=True)) for row in table.rows()]
+    width = [math.radians(row["end"] - row["start"]) for row in rows]
+    assert [row["lift"] for row in rows] == [50, 50, 20, 0, 0]
+    expected = {
+        "velocity_max": [math.pi * 25 / width[0], 0, 0, 0, 0],
+        "velocity_min": [0, 0, -60 / width[2], -40 / width[3], 0],
+        "acceleration_max": [math.pi**2 * 25 / width[0] ** 2, 0, 120 / width[2] ** 2, 40 * math.pi / width[3] ** 2, 0],
+    }
+    omega = 100 * math.pi / 30
+    for name, values in expected.items():
+        order = 1 if name.startswith("velocity") else 2
+        assert [row[name] for row in rows] == pytest.approx(values, rel=1e-12, abs=1e-12)
+        assert [row[f"follower_{name}"] for row in rows] == pytest.approx(
+            [value * omega**order for value in values], rel=1e-12, abs=1e-10
+        )
+
+
+@pytest.mark.parametrize(("follower", "body"), [(ROLLER, {"prime_radius": 60}), (ROCKER, {"prime_radius": 70})])
+def test_segments_together_have_the_extremes_of_the_turn(follower: dict[str, Any], body: dict[str, Any]) -> None:
+    design = cam(SWING, follower, body)
+    table = design.table("segments")
+    rows = [dict(zip(table.columns, row, strict=True)) for row in table.rows()]
+    assert "follower_velocity_max" not in table.columns
+    for name, pick in (("velocity_max", max), ("velocity_min", min), ("acceleration_max", max)):
+        assert pick(row[name] for row in rows) == pytest.approx(design.motion_extremes[name], rel=1e-12)
+
+
+def test_a_table_of_points_has_no_segments() -> None:
+    points = [[float(a), 10.0 * (1.0 - math.cos(math.radians(a)))] for a in range(0, 361, 10)]
+    with pytest.raises(NoSolution, match="the table segments needs motion by segments"):
+        cam({"table": points}, ROLLER, {"prime_radius": 60}).table("segments")
