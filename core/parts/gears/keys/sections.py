@@ -107,7 +107,7 @@ class LoadSpec(Spec):
         None, description="power, with speed, instead of torque"
     )
     speed: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="speed of gear 1; with torque or force for the sliding speeds alone"
+        None, description="speed of gear 1; with torque or force for the sliding speeds of the table path alone"
     )
     tangential_force: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
         None, description="force on the reference circle, instead of torque"
