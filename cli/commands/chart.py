@@ -14,7 +14,7 @@ import numpy as np
 from gearlink.cli.commands.design import print_report, written_beside
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite, require_folder, safe_stem, write_atomically, wrote
+from gearlink.cli.files import CannotWrite, require_folder, safe_stem, wrote
 from gearlink.cli.options import Format, Options
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -23,7 +23,7 @@ from gearlink.cli.render.lists import listed
 from gearlink.cli.views.figures.chart_list import CHARTS, OF_FILES, Axis, DesignChart, Marked
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.cli.views.figures.drawing.placing import settled
-from gearlink.cli.views.figures.write import save
+from gearlink.cli.views.figures.write import write_figure
 from gearlink.core.base.errors import NoSolution, at_key, named
 from gearlink.core.base.report import Report, Table
 
@@ -366,15 +366,13 @@ def write_chart(
     Raises
         CannotWrite - where the folder or the disk does not take the file
     """
-    name, ending = "" if marked is None else marked.name, options.plot_format.value
+    name = "" if marked is None else marked.name
     stem = chart.name if marked is None else f"{safe_stem(name)}-{chart.name}"
-    path = options.out / f"{stem}-chart.{ending}"
 
     def make() -> Figure:
         return settled(draw(chart, table, curves, marked))
 
-    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi, quiet=options.quiet))
-    return path
+    return write_figure(make, name, "chart", options, stem)
 
 
 def _label(axis: Axis) -> str:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearlink.cli.commands.animate import require_shown
 from gearlink.cli.evaluate import checks_of, open_design, read_spec, refusals_located, whole_design
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
+from gearlink.cli.files import CannotWrite, wrote
 from gearlink.cli.options import Options
 from gearlink.cli.printable import for_shell
 from gearlink.cli.progress import counted, patience
@@ -131,10 +131,9 @@ def _write(made: Makers, name: str, design: Any, options: Options, checks: Seque
     from gearlink.cli.views.figures.drawing import style
     from gearlink.cli.views.figures.drawing.placing import settled
     from gearlink.cli.views.figures.of_motion import instants
-    from gearlink.cli.views.figures.write import failures, save
+    from gearlink.cli.views.figures.write import failures, write_figure
 
-    ending, spec, failed = options.plot_format.value, design.spec, failures(checks)
-    path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
+    failed = failures(checks)
 
     def draw() -> Figure:
         figure = made[name]()
@@ -145,8 +144,7 @@ def _write(made: Makers, name: str, design: Any, options: Options, checks: Seque
             instants(figure, design, checks)
         return settled(figure)
 
-    write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi, quiet=options.quiet))
-    return path
+    return write_figure(draw, design.spec.name, name, options)
 
 
 _MOST_INPUTS = 4

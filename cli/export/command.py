@@ -61,11 +61,12 @@ def run_export(source: str, asked: Export) -> int:
         design = whole_design(kind, spec)
         with _located(loaded), patience(f"computing the profiles of {spec.name}", quiet=asked.options.quiet):
             files = list(_contour_files(design, asked))
-            profiles = _without_contour(design, asked)
-            curves = _curves(asked) if profiles else []
-            contours = {curve: _contours(design, profiles, curve) for curve in curves if profiles}
-            for form in asked.formats if profiles else ():
-                files += _files(form, design, contours, asked)
+            rest = replace(asked, parts=tuple(part for part in asked.parts if part != CONTOUR)) if files else asked
+            contours: dict[CurveForm, list[Contour]] = {}
+            if rest.parts or not files:
+                contours = {curve: _contours(design, rest, curve) for curve in _curves(asked)}
+                for form in asked.formats:
+                    files += _files(form, design, contours, asked)
         for path, data, words in files:
             write_atomically(path, lambda stream, data=data: stream.write(data))  # type: ignore[misc]
             if not asked.options.quiet:
@@ -95,24 +96,9 @@ def _warned(findings: list[str]) -> int:
 
 def _contour_files(design: Any, asked: Export) -> Iterator[tuple[Path, bytes, str]]:
     """The blocking contour of a gear pair, where it is asked for."""
-    if not _asks_for_contour(design, asked):
-        return
-
-    for form in asked.formats:
+    for form in asked.formats if CONTOUR in asked.parts and design.kind == "gear-pair" else ():
         data, words = contour_file(design, form)
         yield asked.options.out / f"{safe_stem(design.spec.name)}-{CONTOUR}.{form}", data, words
-
-
-def _asks_for_contour(design: Any, asked: Export) -> bool:
-    return CONTOUR in asked.parts and design.kind == "gear-pair"
-
-
-def _without_contour(design: Any, asked: Export) -> Export | None:
-    """What is asked for but the blocking contour; None where nothing else is."""
-    if not _asks_for_contour(design, asked):
-        return asked
-    rest = tuple(part for part in asked.parts if part != CONTOUR)
-    return replace(asked, parts=rest) if rest else None
 
 
 @contextmanager

@@ -53,8 +53,7 @@ class Motion:
         make : function of an array of inputs (N,) [rad or mm], of the order of the highest derivative, and of the side
         outputs : what moves in the end, as sheets and animations show it; of the first one `register` counts the errors
         highest : int - the highest derivative there is; 2 where a law has no third
-        transmission : pins at which a coupler moves a link of the frame, and whose transmission angles are judged where
-            no table has them
+        transmission : the least transmission angle; None where no coupler moves a link of the frame
 
     A rate that jumps at an input is the one just after it, with `side` -1 the one just before.
     """
@@ -63,7 +62,7 @@ class Motion:
     input: Input = Input()
     outputs: tuple[Output, ...] = ()
     highest: int = 3
-    transmission: tuple[str, ...] = ()
+    transmission: Course | None = None
     kept: dict[tuple[int, bytes], Mechanism] = field(default_factory=dict, repr=False, compare=False)
     kept_few: dict[tuple[int, bytes], Mechanism] = field(default_factory=dict, repr=False, compare=False)
 

@@ -15,6 +15,7 @@ import numpy as np
 from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.mechanism.joints import Contact, Coupling, Guide, Pin, SharedContact, meshes_of
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Course
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.dynamics import Reactions
@@ -201,6 +202,15 @@ def transmission_angles(mechanism: Mechanism, pins: Sequence[str]) -> dict[str, 
         turned = np.conj(each.at - other.at) * way
         found[each.name] = np.arctan2(np.abs(turned.real), np.abs(turned.imag))
     return found
+
+
+def least_transmission(*pins: str) -> Course:
+    """The least of the transmission angles at pins of a mechanism; those that it has not are none."""
+
+    def of(mechanism: Mechanism) -> list[Reals]:
+        return [np.min([np.full(mechanism.rows, math.inf), *transmission_angles(mechanism, pins).values()], axis=0)]
+
+    return Course("rad", of)
 
 
 def _direction(mechanism: Mechanism, follower: str, at: Points) -> Points | None:

@@ -11,22 +11,7 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
 from gearlink.cli.views.figures.sheets.cam_sheets import follower_discs
 from gearlink.cli.views.scenes import of_motion
-from gearlink.cli.views.scenes.scene import (
-    BLUE,
-    GREY,
-    ORANGE,
-    TURN,
-    Body,
-    Chain,
-    Mark,
-    Part,
-    Points,
-    Reals,
-    Scene,
-    pale,
-    track,
-    wheel,
-)
+from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Mark, Part, Points, Reals, Scene, pale, track, wheel
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,11 +53,11 @@ def _cams(design: DiscCamDesign, fraction: Reals) -> list[Part]:
     axis = track(0j, fraction)
     if design.spec.is_flat:
         outline = cams.flat.points(_CLOSE)[0]
-        return [Body(outline=outline, place=axis, turn=turn, color=BLUE, fill=pale(BLUE, 0.15), width=1.6)]
+        return [Body(outline=outline, place=axis, turn=turn, color=style.BLUE, fill=pale(style.BLUE, 0.15), width=1.6)]
+    walls: list[tuple[DiscCam | None, str]] = [(cams.main, style.BLUE), (cams.back, style.ORANGE)]
     if design.spec.closure == "groove":  # its inner wall on the outer one
-        return [disc_cam(cam, axis, turn, color) for cam, color in ((cams.outer_wall, ORANGE), (cams.main, BLUE))]
-    walls = [cams.main, *([cams.back] if cams.back else [])]
-    return [disc_cam(cam, axis, turn, color) for cam, color in zip(walls, (BLUE, ORANGE), strict=False)]
+        walls = [(cams.outer_wall, style.ORANGE), (cams.main, style.BLUE)]
+    return [disc_cam(cam, axis, turn, color) for cam, color in walls if cam is not None]
 
 
 def _followers(design: DiscCamDesign, fraction: Reals) -> list[Part]:
@@ -84,7 +69,7 @@ def _followers(design: DiscCamDesign, fraction: Reals) -> list[Part]:
     if cams.back is not None:
         held = track(cams.pivot, fraction) if design.spec.oscillates else front
         found.append(Chain(joints=(held, cams.back.path(phi, 1).position), marked=False))
-    for cam, color in ((cams.main, BLUE), (cams.back, ORANGE)):
+    for cam, color in ((cams.main, style.BLUE), (cams.back, style.ORANGE)):
         if cam is not None:
             center = cam.path(phi, 1).position
             found.append(wheel(center, cam.roller_radius, fraction, color=color, fill=pale(color, 0.3)))
@@ -104,7 +89,7 @@ def _face(design: DiscCamDesign, phi: Reals) -> list[Part]:
         return [Chain(joints=(pivot, foot, foot + _REACH * high * along), marked=False)]
     beyond = (_REACH - 1.0) * max(abs(low), abs(high))
     ends = foot + (low - beyond) * along, foot + (high + beyond) * along
-    return [Chain(joints=ends, color=GREY, marked=False), *_stem(design, foot)]
+    return [Chain(joints=ends, color=style.GREY, marked=False), *_stem(design, foot)]
 
 
 def _stem(design: DiscCamDesign, start: Points) -> list[Part]:
@@ -130,8 +115,8 @@ def build_cylindrical(design: CylindricalCamDesign, fraction: Reals) -> Scene:
     place = drum.sense * drum.bottom * _TURN * np.mod(np.asarray(fraction), 1.0) + 0j
     level, center = np.zeros_like(fraction), 1j * design.follower_motion.evaluate(_TURN * fraction, 0)[0]
     parts = (
-        Body(outline=outline, place=place, turn=level, color=BLUE, fill=pale(BLUE, 0.15), width=1.4),
-        wheel(center, drum.roller_radius, fraction, color=ORANGE, fill=pale(ORANGE, 0.3)),
+        Body(outline=outline, place=place, turn=level, color=style.BLUE, fill=pale(style.BLUE, 0.15), width=1.4),
+        wheel(center, drum.roller_radius, fraction, color=style.ORANGE, fill=pale(style.ORANGE, 0.3)),
         Chain(joints=(center, center + _DRUM_STEM * 1j * drum.roller_radius), marked=False),
     )
     return replace(scene, parts=parts, marks=(Mark(center),))
@@ -145,7 +130,7 @@ _SHOWN = 0.125
 def draw_disc(command: str, design: DiscCamDesign) -> Figure:
     """The picture of a command on a disc cam."""
     flat = design.spec.is_flat
-    outline, rows = _page(f"{design.spec.name}: {command}", 3.2, 4 if flat else 5)
+    made, (outline, *rows) = panels.stack(f"{design.spec.name}: {command}", (3.2, *(4 if flat else 5) * (1.0,)))
     panels.drawing(outline, "Cam and follower an eighth of a revolution after cam angle 0")
     scene = build(design, np.array([_SHOWN]))
     driven = 0j, design.spec.cam.sense * _TURN * scene_axes.AHEAD
@@ -160,7 +145,7 @@ def draw_disc(command: str, design: DiscCamDesign) -> Figure:
         _pitch_curves(outline, design)
         _pressure(rows[-1], design)
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
-    return outline.figure  # type: ignore[return-value]
+    return made
 
 
 def _cut_by_face(axes: Axes, design: DiscCamDesign) -> None:
@@ -205,40 +190,30 @@ def _pressure(axes: Axes, design: DiscCamDesign) -> None:
 
 def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
     """The picture of a command on a cylindrical cam: the track developed at its bottom."""
-    track, rows = _page(f"{design.spec.name}: {command}", 1.8)
+    made, (track, *rows) = panels.stack(f"{design.spec.name}: {command}", (1.8, 1.0, 1.0, 1.0, 1.0))
     phi, drum = np.linspace(0.0, 2.0 * math.pi * (1.0 - 1e-9), 1441), design.drum
     panels.drawing(track, f"Track developed at its bottom, radius {drum.bottom:.6g} mm")
     for side, color, width in ((0, style.GREY, 0.9), (1, style.BLUE, 1.6), (-1, style.BLUE, 1.6)):
         track.plot(*drum.developed(drum.bottom, side, phi), color=color, linewidth=width)
     _motion(rows, phi, design.follower_motion.evaluate(phi, 3), "mm")
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
-    return track.figure  # type: ignore[return-value]
-
-
-def _page(title: str, height: float, count: int = 4) -> tuple[Axes, list[Axes]]:
-    """A drawing of a height above so many panels."""
-    made = panels.page(title)
-    grid = made.add_gridspec(count + 1, 1, height_ratios=(height, *count * (1.0,)))
-    drawing, *rows = (made.add_subplot(grid[i]) for i in range(count + 1))
-    return drawing, rows
+    return made
 
 
 def _motion(rows: list[Axes], phi: Any, rates: Any, unit: str) -> None:
     """Lift and its derivatives over the cam angle."""
     for order, (axes, label, color) in enumerate(zip(rows[:4], _LABELS, _COLORS, strict=True)):
-        power = ("", "/rad", "/rad²", "/rad³")[order]
-        shown = ("deg", "1", "1/rad", "1/rad²")[order] if unit == "rad" else f"{unit}{power}"
-        panels.turn_panel(axes, f"{label}\n[{shown}]", "cam angle [deg]" if axes is rows[-1] else "")
+        panels.turn_panel(
+            axes, f"{label}\n[{panels.per_input(unit, order)}]", "cam angle [deg]" if axes is rows[-1] else ""
+        )
         values = np.degrees(rates[order]) if unit == "rad" and order == 0 else rates[order]
         axes.plot(np.degrees(phi), values, color=color, linewidth=1.6)
 
 
 def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
     """The picture of a command."""
-    made = panels.page(f"{design.spec.name}: {command}")
-    grid = made.add_gridspec(4, 1, height_ratios=(2.6, 1.0, 1.0, 1.0))
+    made, (shape, *rows) = panels.stack(f"{design.spec.name}: {command}", (2.6, 1.0, 1.0, 1.0))
     t = np.linspace(0.0, 2.0 * math.pi, 1441)
-    shape = made.add_subplot(grid[0])
     panels.drawing(shape, f"Profile through {len(design.residuals)} points, missed by {design.fit_max:.3g} mm at most")
     pitch = design.cam.contact(t).center
     radius = design.cam.series.at(t, 0)[0]
@@ -250,12 +225,10 @@ def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
     style.pivot(shape, 0j)
     panels.legend_below(shape, 3)
     table = design.table("law", samples=1440)
-    units = dict(zip(table.columns, table.units, strict=True))
-    named = (table.columns[1], "velocity", "acceleration")
-    rows = [made.add_subplot(grid[1 + k]) for k in range(3)]
-    for k, (axes, name, color) in enumerate(zip(rows, named, (style.BLUE, style.GREEN, style.ORANGE), strict=True)):
-        label = f"{name.replace('_', ' ')} [{units[name].replace('^2', '²')}]"
-        panels.turn_panel(axes, label, "cam angle [deg]" if k == 2 else "")
+    for axes, name, color in zip(rows, (table.columns[1], "velocity", "acceleration"), _COLORS, strict=False):
+        unit = table.units[table.columns.index(name)].replace("^2", "²")
+        over = "cam angle [deg]" if axes is rows[-1] else ""
+        panels.turn_panel(axes, f"{name.replace('_', ' ')} [{unit}]", over)
         axes.plot(table["cam_angle"], table[name], color=color, linewidth=1.6)
     _shade(rows, design)
     time_axes.over_input(rows[-1], time_axes.turn_time(design))

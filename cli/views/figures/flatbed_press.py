@@ -6,33 +6,26 @@ The scene is one revolution of the input, a sheet. Chains and cams are to scale,
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.cams import disc_cam
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.scenes.gears import gear
+from gearlink.cli.views.scenes.of_motion import Frame, Positions, Seen, inputs
 from gearlink.cli.views.scenes.scene import (
-    BLACK,
-    BLUE,
     DWELL,
-    GREEN,
-    GREY,
-    RED,
     TURN,
     Body,
     Chain,
-    Chart,
-    Curve,
     Line,
     Mark,
     Part,
     Points,
-    Readout,
     Reals,
     Scene,
     bands,
@@ -41,6 +34,7 @@ from gearlink.cli.views.scenes.scene import (
     letters,
     loop,
     pale,
+    round_below,
     track,
     wheel,
 )
@@ -55,8 +49,7 @@ if TYPE_CHECKING:
 
     from gearlink.core.machines.flatbed_press.design import FlatbedPress
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
-    from gearlink.core.mechanism.links import Link
-    from gearlink.core.mechanism.motion import Motion
+    from gearlink.core.mechanism.motion import Course
 
 
 LEVEL = -1j
@@ -64,7 +57,7 @@ LEVEL = -1j
 UPRIGHT = 1j
 """Turns the cylinder drive's frame so that N stands above G; its cylinder, geared to N, then runs with the bed."""
 _BED, _RACK = "#CFE8F7", "#F6E3C0"
-_CAM_COLORS = (BLUE, RED)
+_CAM_COLORS = (style.BLUE, style.RED)
 
 
 @dataclass(frozen=True)
@@ -81,25 +74,25 @@ class Machine:
         return TURN * self.fraction
 
     @cached_property
-    def links(self) -> Mapping[str, Link]:
-        """All links; without its cams the lower rack stands."""
-        return self._moving.at(self.phi, 0).links
-
-    @cached_property
-    def _moving(self) -> Motion:
-        return self.design.moving if self.cams else bare(self.design).moving
+    def here(self) -> Positions:
+        """The links; without its cams the lower rack stands."""
+        return Positions((self.design if self.cams else bare(self.design)).moving, self.phi)
 
     def velocity(self, link: str, pin: str) -> Points:
         """Of a pin by the input angle [mm/rad], N towards +x from G."""
-        found = self._moving.at(self.phi, 1).links
-        side = np.sign(self.links["MN"].origin.value.real - self.links["gear1"].origin.value.real)
-        return found[link].at(pin).first * (side if link == "MN" else 1.0)
+        found = self.here.motion.at(self.phi, 1).links
+        return found[link].at(pin).first * (self._side if link == "MN" else 1.0)
+
+    @cached_property
+    def _side(self) -> float:
+        """+1 where N stands towards +x from G in the motion, else -1."""
+        return float(np.sign((self.here.at("MN") - self.here.at("gear1")).real[0]))
 
     @cached_property
     def bed_joints(self) -> tuple[Points, ...]:
         """A to F with the slide level."""
         pins = (("gear2", "A"), ("gear2", "B"), ("CDE", "C"), ("CDE", "D"), ("CDE", "E"), ("carriage", "F"))
-        return tuple(LEVEL * self.links[link].at(pin).value for link, pin in pins)
+        return tuple(LEVEL * self.here.at(*pin) for pin in pins)
 
     @cached_property
     def slide(self) -> float:
@@ -119,9 +112,8 @@ class Machine:
     @cached_property
     def cylinder_links(self) -> tuple[Points, ...]:
         """G, H, M, N with G in the origin and N above it."""
-        center, pins = self.links["gear1"].origin.value, (("gear1", "G"), ("gear1", "H"), ("MN", "M"), ("MN", "N"))
-        side = np.sign((self.links["MN"].origin.value - center).real)
-        return tuple(UPRIGHT * side * (self.links[link].at(pin).value - center) for link, pin in pins)
+        pins = ("gear1", "G"), ("gear1", "H"), ("MN", "M"), ("MN", "N")
+        return tuple(UPRIGHT * self._side * (self.here.at(*pin) - self.here.at("gear1")) for pin in pins)
 
     @property
     def cylinder_joints(self) -> tuple[Points, ...]:
@@ -131,27 +123,12 @@ class Machine:
     @cached_property
     def cam_angle(self) -> Reals:
         """Angle turned by the cams [rad]."""
-        return np.asarray(self.links["CDE"].turn.value - self.design.bed.cam_angle_start)
+        return np.asarray(self.here.turn("CDE") - self.design.bed.cam_angle_start)
 
     @cached_property
     def lift(self) -> Reals:
         """Way of the lower rack [mm]; nothing without cams."""
-        rack = self.links.get("rack")
-        return np.zeros_like(self.fraction) if rack is None else rack.origin.value.imag
-
-    @cached_property
-    def bed_travel(self) -> Reals:
-        """Way of the bed [mm], the compensation taken off."""
-        return self.links["bed"].origin.value.imag - self._bed_at_start
-
-    @property
-    def _bed_at_start(self) -> float:
-        return 2.0 * float(bare(self.design).moving.at(np.zeros(1), 0).links["carriage"].origin.value[0].imag)
-
-    @cached_property
-    def cylinder_travel(self) -> Reals:
-        """Way of the cylinder's surface [mm]."""
-        return self.design.cylinder.radius * self.links["cylinder"].turn.value
+        return self.here.at("rack").imag if "rack" in self.here.now.links else np.zeros_like(self.fraction)
 
     @property
     def pinion(self) -> float:
@@ -184,88 +161,89 @@ class Machine:
 def build(design: FlatbedPress, fraction: Reals, *, cams: bool = True) -> Scene:
     """Positions over fractions of the loop; the cams stand beside the chains."""
     machine = Machine(design, fraction, cams)
-    chains = bed_chain(machine.bed_joints), cylinder_chain(machine.cylinder_joints)
-    return Scene(
-        parts=(
+    here, chains = machine.here, (bed_chain(machine.bed_joints), cylinder_chain(machine.cylinder_joints))
+    (bed, cylinder), zone = here.motion.outputs, np.degrees([design.sync_start, design.sync_end]).tolist()
+    seen = {"bed": Seen(bed.course, style.BLUE, "mm"), "cylinder": Seen(cylinder.course, style.GREEN, "mm")}
+    travel = {name: (" mm", each.at(here.motion, here.inputs)) for name, each in seen.items()}
+    return here.scene(
+        (
             *_driving_circles(machine),
-            *_bed(machine),
+            *_bed(machine, bed.course),
             *_cylinder(machine),
             *_input_gears(machine),
             *(part for chain in chains for part in chain.parts),
             *(_cam_bodies(machine) if cams else ()),
         ),
+        seen,
+        "travel [mm]",
+        marked=bands([("synchronous zone", *zone, DWELL)]),
         marks=(
             *(mark for chain in chains for mark in chain.marks),
             Mark(track(machine.cylinder_axis, fraction), pivot=True),
             *(_cam_words(machine) if cams else ()),
         ),
-        chart=_chart(machine),
-        readouts=(
-            Readout("input", "°", np.degrees(machine.phi)),
-            Readout("bed", " mm", machine.bed_travel),
-            Readout("cylinder", " mm", machine.cylinder_travel),
-            Readout("lift of the cam", " mm", machine.lift),
-        ),
+        values={**travel, "lift of the cam": (" mm", machine.lift)},
     )
 
 
-def as_drawn(design: FlatbedPress) -> Motion | None:
-    """The motion with gear 1 and the cylinder where they are drawn; None where the file places them by its loads."""
-    if design.spec.loads is not None or design.spec.input_gears is None:
-        return None
-    machine = Machine(design, np.zeros(1), cams=False)
-    to_gear = machine.gear_axis / LEVEL
-    to_cylinder = (machine.cylinder_axis - complex(machine.cylinder_joints[3][0])) / LEVEL
-    section = PressLoads.model_construct(
-        bed_side=-1,
-        gear_1_direction=math.degrees(np.angle(to_gear)),
-        cylinder_direction=math.degrees(np.angle(to_cylinder)),
-    )
-    return type(design)(design.spec.model_copy(update={"loads": section})).moving
+def frame(design: FlatbedPress) -> Frame:
+    """Where the scene stands: gear 1 and the cylinder are where the file's loads place them, else where it has them."""
+    motion = design.moving
+    if design.spec.loads is None and design.spec.input_gears is not None:
+        machine = Machine(design, np.zeros(1), cams=False)
+        to_gear = machine.gear_axis / LEVEL
+        to_cylinder = (machine.cylinder_axis - complex(machine.cylinder_joints[3][0])) / LEVEL
+        section = PressLoads.model_construct(
+            bed_side=-1,
+            gear_1_direction=math.degrees(np.angle(to_gear)),
+            cylinder_direction=math.degrees(np.angle(to_cylinder)),
+        )
+        motion = type(design)(design.spec.model_copy(update={"loads": section})).moving
+    return Frame(partial(inputs, motion.input), motion, LEVEL)
 
 
 def bed_chain(joints: tuple[Points, ...]) -> Scene:
     """The links A to F alone."""
     marks = letters("AD", **dict(zip("ABCDEF", joints, strict=True)))
-    return Scene(parts=(Chain(joints=joints, color=BLUE),), marks=marks)
+    return Scene(parts=(Chain(joints=joints, color=style.BLUE),), marks=marks)
 
 
 def cylinder_chain(joints: tuple[Points, ...]) -> Scene:
     """The links G to N alone."""
     marks = letters("GN", **dict(zip("GHMN", joints, strict=True)))
-    return Scene(parts=(Chain(joints=joints, color=GREEN),), marks=marks)
+    return Scene(parts=(Chain(joints=joints, color=style.GREEN),), marks=marks)
 
 
-def _bed(machine: Machine) -> list[Part]:
+def _bed(machine: Machine, travel: Course) -> list[Part]:
     """Pinion on F between the rack that the cams move and the rack of the bed."""
     stroke, fraction = machine.design.spec.bed.stroke, machine.fraction
     f, pinion = machine.bed_joints[5], machine.pinion
     middle = 0.5 * (float(f.real.min()) + float(f.real.max()))
     thick = 0.06 * stroke
-    whole = replace(machine, fraction=loop(721)).bed_travel
-    travel = machine.bed_travel - 0.5 * (float(whole.min()) + float(whole.max()))
-    upper = middle + travel + 1j * (machine.slide + pinion + 0.5 * thick)
+    whole, now = (travel.rates(machine.here.motion, turn, 0)[0] for turn in (TURN * loop(721), machine.phi))
+    moved = now - 0.5 * (float(whole.min()) + float(whole.max()))
+    upper = middle + moved + 1j * (machine.slide + pinion + 0.5 * thick)
     lower = middle + machine.lift + 1j * (machine.slide - pinion - 0.5 * thick)
     turn = -(f.real - machine.lift) / pinion
     spoke = pinion * np.array([-1.0, 1.0, 0.0, 1j, -1j])
     return [
         Line(points=f[[int(f.real.argmin()), int(f.real.argmax())]]),
-        block(upper, 0.72 * stroke, thick, BLACK, "bed", fill=_BED),
-        block(lower, 1.0 * stroke, thick, BLACK, "rack moved by the cams", fill=_RACK),
-        wheel(f, pinion, fraction, color=BLUE, fill=pale(BLUE, 0.1)),
-        Body(outline=spoke, place=f, turn=turn, color=BLUE),
+        block(upper, 0.72 * stroke, thick, style.BLACK, "bed", fill=_BED),
+        block(lower, 1.0 * stroke, thick, style.BLACK, "rack moved by the cams", fill=_RACK),
+        wheel(f, pinion, fraction, color=style.BLUE, fill=pale(style.BLUE, 0.1)),
+        Body(outline=spoke, place=f, turn=turn, color=style.BLUE),
     ]
 
 
 def _cylinder(machine: Machine) -> list[Part]:
     """The cylinder on the bed; its gripper gap shows how it turns."""
     radius, axis = machine.design.cylinder.radius, machine.cylinder_axis
-    turn = machine.cylinder_travel / radius - 0.5 * math.pi
+    turn = machine.here.turn("cylinder") - 0.5 * math.pi
     gap = radius * np.exp(1j * np.linspace(-0.35, 0.0, 9))
     outline = np.concatenate([[0.82 * gap[0]], gap, [0.82 * gap[-1], 0.82 * gap[0]]])
-    shared = {"place": track(axis, machine.fraction), "turn": turn, "color": GREEN}
+    shared = {"place": track(axis, machine.fraction), "turn": turn, "color": style.GREEN}
     return [
-        Body(outline=circle(radius, 144), repeats=0, fill=pale(GREEN, 0.12), **shared, label="cylinder"),  # type: ignore[arg-type]
+        Body(outline=circle(radius, 144), repeats=0, fill=pale(style.GREEN, 0.12), **shared, label="cylinder"),  # type: ignore[arg-type]
         Body(outline=outline, fill="#ffffff", **shared),  # type: ignore[arg-type]
     ]
 
@@ -281,7 +259,7 @@ def _driving_circles(machine: Machine) -> list[Part]:
             place=track(center, machine.fraction),
             turn=level,
             repeats=0,
-            color=GREY,
+            color=style.GREY,
             width=0.8,
             label=label,
             pitch=radius,
@@ -299,8 +277,8 @@ def _input_gears(machine: Machine) -> list[Part]:
     line = np.full_like(machine.fraction, np.angle(machine.gear_axis))
     turn = driven_turn(pair.teeth, line, machine.phi)
     return [
-        *gear(pair, 0, a, machine.phi, 1.0, GREY, "2"),
-        *gear(pair, 1, g, turn, -1.0, GREY, "1"),
+        *gear(pair, 0, a, machine.phi, 1.0, style.GREY, "2"),
+        *gear(pair, 1, g, turn, -1.0, style.GREY, "1"),
     ]
 
 
@@ -320,8 +298,8 @@ def _cam_bodies(machine: Machine) -> list[Part]:
     rollers = [axis + place for place in places]
     for center, color in zip(rollers, _CAM_COLORS, strict=True):
         parts.append(wheel(center, design.spec.cam.roller_radius, machine.fraction, color=color, fill=pale(color, 0.3)))
-    parts.append(Chain(joints=(rollers[0], rollers[1]), color=GREY, width=1.5))
-    parts.append(wheel(axis, 0.12 * design.cam_base_radius, machine.fraction, color=BLACK, fill="#ffffff"))
+    parts.append(Chain(joints=(rollers[0], rollers[1]), color=style.GREY, width=1.5))
+    parts.append(wheel(axis, 0.12 * design.cam_base_radius, machine.fraction, color=style.BLACK, fill="#ffffff"))
     return parts
 
 
@@ -331,21 +309,6 @@ def _cam_words(machine: Machine) -> tuple[Mark, ...]:
         return ()
     below = machine.cam_axis - (1.0 + 1.4j) * design.max_radius
     return (Mark(track(below, machine.fraction), "cams on D"),)
-
-
-def _chart(machine: Machine) -> Chart:
-    whole = replace(machine, fraction=loop())
-    return Chart(
-        "input angle [deg]",
-        "travel [mm]",
-        360.0 * loop(),
-        np.degrees(machine.phi),
-        (
-            Curve("bed", BLUE, whole.bed_travel, machine.bed_travel),
-            Curve("cylinder", GREEN, whole.cylinder_travel, machine.cylinder_travel),
-        ),
-        bands([("synchronous zone", *np.degrees([machine.design.sync_start, machine.design.sync_end]), DWELL)]),
-    )
 
 
 POSITIONS = 12
@@ -482,18 +445,12 @@ def _arrows(
     )
     tips = start + drawn
     axes.update_datalim(np.column_stack([tips.real, tips.imag]))
-    round_speed = _round_below(0.7 * top)
+    round_speed = round_below(0.7 * top)
     key = axes.quiverkey(
         quiver, *place, round_speed / scale, f"{subject}: {round_speed:g} mm/s", labelpos="W", coordinates="axes"
     )
     key.text.set_fontsize(8 if place[1] > 1.0 else 6.5)
     return tips
-
-
-def _round_below(value: float) -> float:
-    """The largest of 1, 2, 5 times a power of ten that is not above a value."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return max((step * power for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-12)), default=power)
 
 
 def _lanes(axes: Axes, points: list[complex], speed: Any, top: float) -> None:
@@ -520,9 +477,9 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
     for each, what, ylabel in zip(axes, ("displacement", "velocity"), ("travel [mm]", "speed [mm/s]"), strict=True):
         panels.turn_panel(each, ylabel, "input angle [deg]" if what == "velocity" else "")
         for part, color, line in (("cylinder", CYLINDER, style.LONG), ("bed", BED, "-")):
-            index = dense.columns.index(f"{part}_{what}")
-            each.plot(dense.data[0], dense.data[index], color=color, linewidth=1.6, linestyle=line, label=part)
-            each.plot(twelve.data[0], twelve.data[index], "o", color=color, markersize=3.0)
+            column = f"{part}_{what}"
+            each.plot(dense.data[0], dense[column], color=color, linewidth=1.6, linestyle=line, label=part)
+            each.plot(twelve.data[0], twelve[column], "o", color=color, markersize=3.0)
         if f"compensated_{what}" in dense.columns:
             with_cam: Any = {"color": BED, "linewidth": 1.1, "linestyle": style.DOTTED, "label": "bed with its cam"}
             each.plot(dense.data[0], dense[f"compensated_{what}"], **with_cam)
@@ -612,7 +569,7 @@ def _follower(axes: list[Axes], design: FlatbedPress) -> None:
     names = (("lift", "lift [mm]"), ("velocity", "velocity\n[mm/rad]"), ("acceleration", "acceleration\n[mm/rad²]"))
     for each, (name, ylabel) in zip(axes, names, strict=True):
         panels.turn_panel(each, ylabel)
-        each.plot(degrees, table.data[table.columns.index(name)], color=style.BLUE, linewidth=1.6)
+        each.plot(degrees, table[name], color=style.BLUE, linewidth=1.6)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
     panels.heading(axes[0], "Motion of the follower over the cam angle")
 
@@ -621,9 +578,9 @@ def _compensation(axes: Axes, design: FlatbedPress) -> None:
     """Difference of bed and cylinder travel that the cam makes good in the zone, over the input angle."""
     phi = np.linspace(design.sync_start, design.sync_end, 241)
     gap = difference(design.bed, design.cylinder, phi).value
-    style.curves(axes, "input angle [deg]", "bed less cylinder travel [mm]")
-    panels.small_ticks(axes)
-    panels.heading(axes, f"Compensation: {design.compensation:.5g} mm")
+    panels.curves(
+        axes, "input angle [deg]", "bed less cylinder travel [mm]", f"Compensation: {design.compensation:.5g} mm"
+    )
     axes.plot(np.degrees(phi), gap - gap[0], color=style.GREEN, linewidth=1.6)
     end = float(np.degrees(phi[-1]))
     axes.plot([end], [design.compensation], "o", color=style.GREEN, markersize=4.5)
@@ -658,8 +615,6 @@ def _cams(axes: Axes, design: FlatbedPress) -> None:
 def _draw_parts(command: str, design: FlatbedPress) -> Figure:
     """The pair of input gears, or the slider-crank D-E-F."""
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)])
     from gearlink.cli.views.figures import slider_crank
 

@@ -5,50 +5,25 @@ The scene of a path is its whole period, that of a function its range, there and
 
 from __future__ import annotations
 
-import cmath
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.gears import gear
-from gearlink.cli.views.scenes.scene import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    TURN,
-    Body,
-    Chain,
-    Chart,
-    Curve,
-    Mark,
-    Part,
-    Points,
-    Readout,
-    Reals,
-    Scene,
-    letters,
-    loop,
-    pale,
-    standing,
-    track,
-)
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
+from gearlink.cli.views.scenes import of_motion
+from gearlink.cli.views.scenes.gears import Toothed, train
+from gearlink.cli.views.scenes.of_motion import Frame, Positions, Seen
+from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Mark, Points, Reals, Scene, letters
 from gearlink.core.machines.five_bar.design import GearedFiveBar
-from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
-from gearlink.core.parts.linkages.dyad import close_dyad
+from gearlink.core.mechanism.courses import coordinate, turned
+from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from gearlink.core.parts.gears.mesh.pair import GearPair
-
-
-_PINS = (("input", "A"), ("coupler", "B"), ("coupler", "C"), ("output", "D"), ("output", "E"))
 
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:
@@ -57,136 +32,70 @@ def build(design: GearedFiveBar, fraction: Reals) -> Scene:
 
 
 def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
-    bar, offset = design.path_bar, design.offset
-    phi, whole = bar.period * fraction, bar.period * loop(361)
-    links = design.moving.at(phi, 0).links
-    coupler = links["coupler"]
-    a, b, c, d, e = (links[link].at(pin).value for link, pin in _PINS)
-    m, path = coupler.at("M").value, design.moving.at(whole, 0).links["coupler"].at("M").value
+    bar, offset, here = design.path_bar, design.offset, Positions.of(design, fraction)
+    m, (a, b, c, d, e) = here.at("coupler", "M"), (mark.point for mark in here.marks[:5])  # an idler has a pin too
     apart = bool(abs(offset - bar.coupler) > 1e-9)
-    plate = Body(
-        outline=np.array([0.0, bar.coupler, offset, 0.0]),
-        place=b,
-        turn=coupler.turn.value,
-        color=BLACK,
-        width=0.5,
-        fill=pale(BLACK, 0.25),
-    )
-    return Scene(
-        parts=(
-            *_path_gears(design, phi, fraction),
-            standing(_path(design), fraction, GREEN, "path of M"),
-            plate,
-            Chain(joints=(a, b, c, d, e)),
-            Chain(joints=(m,), color=GREEN),
-        ),
+    outline = np.array([0.0, bar.coupler, offset, 0.0])
+    plate = here.body("coupler", outline, style.BLACK, width=0.5)
+    path = here.body(FRAME, _path(design), style.GREEN, 0.0, width=1.5, name="path of M")
+    return here.scene(
+        (*_path_gears(design, here), path, plate, Chain(joints=(a, b, c, d, e)), Chain(joints=(m,), color=style.GREEN)),
+        {
+            "x": Seen(coordinate("coupler", "M"), style.BLUE, "mm"),
+            "y": Seen(coordinate("coupler", "M", 1j), style.ORANGE, "mm"),
+        },
+        "coupler point M [mm]",
         marks=(
             *letters("AE", **{"A": a, "B": b, "C" if apart else "C, M": c, "D": d, "E": e}),
             *([Mark(m, "M")] * apart),
         ),
-        chart=Chart(
-            "input angle [deg]",
-            "coupler point M [mm]",
-            np.degrees(whole),
-            np.degrees(phi),
-            (Curve("x", BLUE, path.real, m.real), Curve("y", ORANGE, path.imag, m.imag)),
-        ),
-        readouts=(Readout("input", "°", np.degrees(phi)), Readout("x", " mm", m.real), Readout("y", " mm", m.imag)),
     )
 
 
 def _path(design: GearedFiveBar) -> Points:
     """The path of M as its table has it, closed where the table has the whole of it."""
     table = design.table("path")
-    x, y = (np.asarray(table.data[table.columns.index(name)]) for name in ("x", "y"))
-    path: Points = x + 1j * y
+    path: Points = np.asarray(table["x"]) + 1j * np.asarray(table["y"])
     return np.append(path, path[0]) if design.shown_turns == design.period_turns else path
 
 
-def _path_gears(design: GearedFiveBar, phi: Reals, fraction: Reals) -> list[Part]:
+def _path_gears(design: GearedFiveBar, here: Positions) -> list[Body]:
     """Gears on A and E, and an idler above the frame; a ring gear is drawn first."""
-    bar, period = design.path_bar, design.path_bar.period_turns
-    a, e = track(0.0, fraction), track(bar.frame, fraction)
-    first, *more = design.meshes.values()
-    level, turned = np.zeros_like(phi), period * float(bar.ratio)
-
-    def on_input(mesh: GearPair, number: int) -> list[Body]:
-        return gear(mesh, number, a, phi, period, BLUE, "1", "input gear", design.outer_rim(design.mesh_names[0]))
-
-    def on_output(mesh: GearPair, number: int, turn: Reals) -> list[Body]:
-        return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear", design.outer_rim(design.mesh_names[0]))
-
-    if first.internal:
-        pinion, ring = (abs(z) for z in first.teeth)
-        if design.signed_teeth[0] < 0:
-            return [*on_input(first, 1), *on_output(first, 0, ring_turn((ring, pinion), level, phi))]
-        return [*on_output(first, 1, ring_turn((pinion, ring), level + math.pi, phi)), *on_input(first, 0)]
-    if not more:
-        return [*on_input(first, 0), *on_output(first, 1, driven_turn(first.teeth, level, phi))]
-    (second,), (near, far) = more, design.center_distance
-    idler = close_dyad(0j, complex(bar.frame), near, far, design.spec.gears.idler_side)
-    middle = driven_turn(first.teeth, level + cmath.phase(idler), phi)
-    turn = driven_turn((second.teeth[0], second.teeth[1]), level + cmath.phase(bar.frame - idler), middle)
-    idler_turns, place = -period * first.teeth[0] / first.teeth[1], track(idler, fraction)
-    between = gear(first, 1, place, middle, idler_turns, PURPLE, "idler", "idler")
-    return [*on_input(first, 0), *on_output(second, 1, turn), *between]
+    ring, rim = [z < 0 for z in design.signed_teeth], design.outer_rim(design.mesh_names[0])
+    gears = [
+        Toothed("input", "A", style.BLUE, "1", "input gear", ring[0], rim),
+        Toothed("output", "E", style.ORANGE, "4", "output gear", ring[-1], rim),
+    ]
+    if len(ring) > 2:
+        gears.insert(1, Toothed("idler", 0j, style.PURPLE, "idler", "idler"))
+    first, *between, last = train(here, list(design.meshes.values()), gears)
+    ends = [*last, *first] if ring[-1] else [*first, *last]
+    return [*ends, *(body for bodies in between for body in bodies)]
 
 
-def _input_angles(design: GearedFiveBar, fraction: Reals) -> Reals:
-    """Input angles of a function: straight through where its range closes in itself, else there and back."""
-    start, end = design.input_range
-    turns = (end - start) / TURN
-    wound = turns * float(design.ratio)
-    if max(abs(turns - round(turns)), abs(wound - round(wound))) < 1e-9:
-        return start + (end - start) * fraction
-    return np.asarray(start + (end - start) * 0.5 * (1.0 - np.cos(TURN * fraction)))
+def frame(design: GearedFiveBar) -> Frame:
+    """The scene stands where the motion does; a function whose range closes in itself goes straight through it."""
+    if not design.is_path:
+        start, end = design.input_range
+        ways = ((end - start) / TURN * ratio for ratio in (1.0, float(design.ratio)))
+        if all(abs(turns - round(turns)) < 1e-9 for turns in ways):
+            return Frame(lambda fraction: start + (end - start) * fraction, design.moving)
+    return of_motion.frame(design)
 
 
 def _function_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
-    phi = _input_angles(design, fraction)
-    links = design.moving.at(phi, 0).links
-    a, b, c, d, e = (links[link].at(pin).value for link, pin in _PINS)
-    whole = np.linspace(*design.input_range, 361)
-    output = np.array(design.function_bar.output_angles(whole.tolist()))
-    # The curve tells the turn, the mechanism the angle itself.
-    raw = np.angle(d - e)
-    now = raw + TURN * np.round((np.interp(phi, whole, output) - raw) / TURN)
-    return Scene(
-        parts=(*_function_gears(design, phi, a, b), Chain(joints=(a, b, c, d, e))),
-        marks=letters("AE", A=a, B=b, C=c, D=d, E=e),
-        chart=Chart(
-            "input angle [deg]",
-            "output angle [deg]",
-            np.degrees(whole),
-            np.degrees(phi),
-            (Curve("output", BLUE, np.degrees(output), np.degrees(now)),),
+    here, ring = Positions(design.moving, frame(design).inputs(fraction)), design.spec.gears.ring is not None
+    words, rim = "ring gear, fixed" if ring else "sun, fixed", design.outer_rim(design.mesh_names[0])
+    planet, fixed = train(
+        here,
+        list(design.meshes.values()),
+        (
+            Toothed("coupler", "B", style.BLUE, "2", "planet on the coupler"),
+            Toothed(FRAME, 0j, style.ORANGE, "" if ring else "5", words, ring, rim),
         ),
-        readouts=(Readout("input", "°", np.degrees(phi)), Readout("output", "°", np.degrees(now))),
     )
-
-
-def _function_gears(design: GearedFiveBar, phi: Reals, a: Points, b: Points) -> list[Part]:
-    """The gear that is fixed to the frame, and the planet that rolls on it, or in it."""
-    (mesh,) = design.meshes.values()
-    planet, fixed = (abs(z) for z in mesh.teeth)
-    still, internal = np.zeros_like(phi), mesh.internal
-    turn = ring_turn((fixed, planet), phi, still) if internal else driven_turn((fixed, planet), phi, still)
-    there_and_back = float(abs(_input_angles(design, np.ones(1))[0] - _input_angles(design, np.zeros(1))[0]))
-    turns = there_and_back / TURN * float(design.ratio)
-    return [
-        *gear(
-            mesh,
-            1,
-            a,
-            still,
-            0.0,
-            ORANGE,
-            "" if internal else "5",
-            "ring gear, fixed" if internal else "sun, fixed",
-            design.outer_rim(design.mesh_names[0]),
-        ),
-        *gear(mesh, 0, b, turn, turns, BLUE, "2", "planet on the coupler"),
-    ]
+    seen = {"output": Seen(turned("output"), style.BLUE)}
+    return here.scene((*fixed, *planet, here.chain), seen, "output angle [deg]")
 
 
 _WORDS = {
@@ -212,12 +121,16 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
     title = f"{design.spec.name}: {command}"
     meshes = list(design.meshes.items())
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         named = zip(meshes, _gears(design), strict=True)
         return mesh_figure(title, [Mesh(mesh, name.replace("_", "-"), two) for (name, mesh), two in named])
     if design.is_path:
-        return linkage.sheet(title, design, path_mechanism, _WORDS, [_coordinates, _velocity, _transmission, _span])
+        charts: list[linkage.Panel] = [
+            partial(_coordinates, title="Coupler point", ylabel="x, y [mm]"),
+            partial(_coordinates, title="Velocity of M", ylabel="x′, y′ [mm/rad]", rates=True),
+            _transmission,
+            _span,
+        ]
+        return linkage.sheet(title, design, path_mechanism, _WORDS, charts)
     error = [_structural_error] if design.wanted is not None else []
     return linkage.sheet(title, design, function_mechanism, _WORDS, [_function, *error, _span])
 
@@ -234,7 +147,7 @@ def _gears(design: GearedFiveBar) -> list[tuple[str, str]]:
 def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     """Links and gears at input angle 0, the path of M, and the points that it shall meet."""
     panels.heading(axes, "Mechanism at input angle 0° and the path of M")
-    scene_axes.draw(axes, build(design, np.zeros(1)), ahead=build(design, np.array([scene_axes.AHEAD])))
+    scene_axes.turned(axes, design, build, 0.0)
     target = design.spec.target
     if target is not None and target.points is not None:
         look: Any = {"color": style.RED, "markersize": 7, "zorder": 6}
@@ -246,15 +159,24 @@ def function_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     scene_axes.two_positions(axes, design, build)
 
 
-def _coordinates(axes: Axes, design: GearedFiveBar) -> None:
-    data = linkage.columns(design, "path")
-    linkage.chart(axes, "Coupler point", "x, y [mm]", "input angle [deg]", turn=False)
-    angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
-    for name, color in (("x", style.BLUE), ("y", style.ORANGE)):
-        line: Any = "-" if name == "x" else style.LONG
-        axes.plot(angle, linkage.closed(data[name]), color=color, linewidth=1.6, linestyle=line, label=name)
+def _coordinates(axes: Axes, design: GearedFiveBar, title: str, ylabel: str, *, rates: bool = False) -> None:
+    """Both coordinates of the point M over the input angle, or their rates."""
+    linkage.chart(axes, title, ylabel, "input angle [deg]", turn=False)
+    for name, color, line in (("x", style.BLUE, "-"), ("y", style.ORANGE, style.LONG)):
+        column, words = (f"{name}_velocity", f"{name}′") if rates else (name, name)
+        axes.plot(*_over_period(design, column), color=color, linewidth=1.6, linestyle=line, label=words)
+    if rates:
+        axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     _period(axes, design)
+    if rates:
+        time_axes.in_time(axes, design.angular_speed, 1, "mm")
     panels.legend_above(axes, 2)
+
+
+def _over_period(design: GearedFiveBar, name: str) -> tuple[Any, Any]:
+    """A column of the path over the input angle, closed at the end of the period."""
+    table = design.table("path")
+    return linkage.closed(table["input_angle"], 360.0 * design.period_turns), linkage.closed(table[name])
 
 
 def _period(axes: Axes, design: GearedFiveBar) -> None:
@@ -262,46 +184,27 @@ def _period(axes: Axes, design: GearedFiveBar) -> None:
     style.degrees(axes, 0.0, 360.0 * design.period_turns)
 
 
-def _velocity(axes: Axes, design: GearedFiveBar) -> None:
-    data = linkage.columns(design, "path")
-    linkage.chart(axes, "Velocity of M", "x′, y′ [mm/rad]", "input angle [deg]", turn=False)
-    angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
-    looks = (("x", style.BLUE, "-"), ("y", style.ORANGE, style.LONG))
-    for name, color, line in looks:
-        values = linkage.closed(data[f"{name}_velocity"])
-        axes.plot(angle, values, color=color, linewidth=1.6, linestyle=line, label=f"{name}′")
-    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
-    _period(axes, design)
-    time_axes.in_time(axes, design.angular_speed, 1, "mm")
-    panels.legend_above(axes, 2)
-
-
 def _transmission(axes: Axes, design: GearedFiveBar) -> None:
-    data = linkage.columns(design, "path")
-    angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
-    values = linkage.closed(data["transmission_angle"])
-    linkage.transmission(axes, design, angle, values, "input angle [deg]", turn=False)
+    linkage.transmission(axes, design, xlabel="input angle [deg]", turn=False)
     _period(axes, design)
 
 
 def _function(axes: Axes, design: GearedFiveBar) -> None:
     """Output over input, and the positions that are asked for."""
-    data = linkage.columns(design, "function")
+    table = design.table("function")
     linkage.chart(axes, "Function", "output angle [deg]", "input angle [deg]", turn=False)
-    output = data["output_angle"]
+    phi, output = table["input_angle"], table["output_angle"]
     if design.positions is not None:
         asked = [(math.degrees(phi), math.degrees(psi)) for phi, psi in design.positions]
-        inside = min(range(len(output)), key=lambda i: abs(data["input_angle"][i] - asked[0][0]))
-        turns = 360.0 * round((output[inside] - asked[0][1]) / 360.0)
-        output = [value - turns for value in output]
+        inside = int(np.abs(phi - asked[0][0]).argmin())
+        output = output - 360.0 * round((output[inside] - asked[0][1]) / 360.0)
         axes.plot(*zip(*asked, strict=True), "x", color=style.RED, markersize=7, label="required", zorder=5)
     if design.wanted is not None:
-        table = linkage.columns(design, "structural_error")
-        turns = 360.0 * round((output[0] - table["wanted_angle"][0]) / 360.0)
-        output = [value - turns for value in output]
+        wanted = design.table("structural_error")
+        output = output - 360.0 * round((output[0] - wanted["wanted_angle"][0]) / 360.0)
         look: Any = {"color": style.RED, "markersize": 4, "markevery": 5, "zorder": 5}
-        axes.plot(table["input_angle"], table["wanted_angle"], "x", **look, label="required")
-    axes.plot(data["input_angle"], output, color=style.BLUE, linewidth=1.6, label="output")
+        axes.plot(wanted["input_angle"], wanted["wanted_angle"], "x", **look, label="required")
+    axes.plot(phi, output, color=style.BLUE, linewidth=1.6, label="output")
     panels.legend_above(axes, 2)
 
 
@@ -321,15 +224,14 @@ def _structural_error(axes: Axes, design: GearedFiveBar) -> None:
 
 def _span(axes: Axes, design: GearedFiveBar) -> None:
     """Distance that the dyad spans, and the limits beyond which the five-bar opens."""
-    bar = design.bar
-    path = isinstance(bar, PathFiveBar)
-    ends = (0.0, bar.period) if isinstance(bar, PathFiveBar) else design.input_range
-    square = bar.span_squared if isinstance(bar, PathFiveBar) else bar.reach_squared
-    links = (bar.coupler, bar.follower) if path else (bar.follower, bar.output)
-    linkage.chart(axes, "Span of the two links", "BD [mm]" if path else "CE [mm]", "input angle [deg]", turn=False)
-    angles = [ends[0] + (ends[1] - ends[0]) * i / 720.0 for i in range(721)]
-    spans = [math.sqrt(max(square.value(x), 0.0)) for x in angles]
-    axes.plot([math.degrees(x) for x in angles], spans, color=style.BLUE, linewidth=1.6)
+    path, bar = design.is_path, design.bar
+    (one, start), (other, end) = (("input", "B"), ("output", "D")) if path else (("coupler", "C"), ("output", "E"))
+    links = (design.path_bar.coupler, bar.follower) if path else (bar.follower, bar.output)
+    linkage.chart(axes, "Span of the two links", f"{start}{end} [mm]", "input angle [deg]", turn=False)
+    given = design.moving.input
+    here = Positions(design.moving, np.linspace(given.start, given.end, 721))
+    spans = np.abs(here.at(one, start) - here.at(other, end))
+    axes.plot(np.degrees(here.inputs), spans, color=style.BLUE, linewidth=1.6)
     for limit, words in ((sum(links), "limits: collinear links"), (abs(links[0] - links[1]), None)):
         axes.axhline(limit, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label=words)
     axes.set_ylim(bottom=0.0)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.gears import gear
-from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.views.scenes.scene import BLACK, BLUE, ORANGE, TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
+from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
+from gearlink.cli.views.scenes.gears import Toothed, train
+from gearlink.cli.views.scenes.of_motion import Positions, Seen
+from gearlink.cli.views.scenes.scene import Reals, Scene, fixed_circle
+from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
 from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
-from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
+from gearlink.core.mechanism.courses import turned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,45 +24,28 @@ if TYPE_CHECKING:
 
 def build(design: GearedRocker, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; a hand on the output shows its swing."""
-    phi = TURN * fraction
-    at, output = Joints.of(design.moving, phi), _turn(design, phi)
-    wound = coupler_windings(design.moving)
-    reach = design.mesh.tip_radius[1]
-    start, whole = _turn(design, np.zeros(1))[0], _turn(design, whole_turn())
-    tip = np.array([0.0, 1.7 * reach * 1j])
-    hand = Body(outline=tip, place=at.d, turn=output - start, color=ORANGE, width=5.0, name="hand on the output")
-    rocker = Joints.of(design.moving, whole_turn()).rocker
-    return Scene(
-        parts=(
-            *gear(design.mesh, 1, at.d, output, wound, ORANGE, "5", "gear 5, output"),
-            *gear(design.mesh, 0, at.c, at.coupler, wound, BLUE, "2", "gear 2 on the coupler"),
-            hand,
-            fixed_circle(0j, design.crank_length),
-            at.chain(),
+    here = Positions.of(design, fraction)
+    two, five = train(
+        here,
+        [design.mesh],
+        (
+            Toothed("coupler", "C", style.BLUE, "2", "gear 2 on the coupler"),
+            Toothed("output", 0j, style.ORANGE, "5", "gear 5, output"),
         ),
-        marks=at.marks(),
-        chart=over_crank(
-            phi,
-            (
-                Curve("output", ORANGE, np.degrees(whole - start), np.degrees(output - start)),
-                Curve("rocker", BLACK, np.degrees(rocker - rocker[0]), np.degrees(at.rocker - rocker[0])),
-            ),
-            "angle from crank angle 0 [deg]",
-        ),
-        readouts=(crank_readout(phi), Readout("output", "°", np.degrees(output - start))),
+    )
+    tip = np.array([0.0, 1.7j * design.mesh.tip_radius[1]])
+    hand = here.body("output", tip, style.ORANGE, 0.0, width=5.0, name="hand on the output")
+    rocker = turned("rocker").less(float(here.whole.turn("rocker")[0]))
+    return here.scene(
+        (*five, *two, hand, fixed_circle(0j, design.crank_length), here.chain),
+        {"output": Seen(OUTPUT, style.ORANGE), "rocker": Seen(rocker, style.BLACK)},
+        "angle from crank angle 0 [deg]",
+        values={"output": ("°", np.degrees(here.turn("output")))},
     )
 
 
-def _turn(design: GearedRocker, phi: Reals) -> Reals:
-    at, teeth = Joints.of(design.moving, phi), design.mesh.teeth
-    return driven_turn((teeth[0], teeth[1]), at.rocker + math.pi, at.coupler)
-
-
 _WORDS = {
-    "crank_length": "crank AB",
-    "coupler_length": "coupler BC",
-    "rocker_length": "rocker CD",
-    "frame_length": "frame AD",
+    **linkage.FOUR_BAR,
     "rocker_swing": "swing of the rocker",
     "output_swing": "swing of the output",
     "swing_multiple": "output swing/rocker swing",
@@ -72,18 +58,23 @@ def draw(command: str, design: GearedRocker) -> Figure:
     """The sheet of a command on a geared rocker."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
-    return linkage.sheet(title, design, mechanism, _WORDS, [_angles, linkage.over_crank, _speed, _acceleration])
+    marked = partial(linkage.rate, mark=_mark, color=style.ORANGE)
+    charts: list[linkage.Panel] = [
+        _angles,
+        linkage.transmission,
+        partial(marked, title="Output speed", ylabel="speed ratio", name="speed_ratio", order=1),
+        partial(marked, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio",
+                order=2),
+    ]  # fmt: skip
+    return linkage.sheet(title, design, mechanism, _WORDS, charts)
 
 
 def mechanism(axes: Axes, design: GearedRocker) -> None:
     """Links and gears to scale at one end of the output's swing, lightly at the other."""
     panels.heading(axes, "Mechanism at both ends of the output's swing")
     low, high = sorted(design.extreme_crank_angles, key=design.drive.angle)
-    scene = build(design, np.array([high, low]) / (2.0 * math.pi))
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([high / (2.0 * math.pi) + scene_axes.AHEAD])))
+    scene = scene_axes.turned(axes, design, build, high / (2.0 * math.pi), low / (2.0 * math.pi))
     scene_axes.lightly(axes, scene, 1, name=f"other end, crank angle {math.degrees(low):.5g}°")
 
 
@@ -97,17 +88,5 @@ def _angles(axes: Axes, design: GearedRocker) -> None:
     panels.legend_above(axes, 2)
 
 
-def _speed(axes: Axes, design: GearedRocker) -> None:
-    linkage.chart(axes, "Output speed", "speed ratio")
+def _mark(axes: Axes, design: GearedRocker) -> None:
     linkage.standstills(axes, design.extreme_crank_angles)
-    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
-    axes.plot(*linkage.over_turn(design, "speed_ratio"), color=style.ORANGE, linewidth=1.6)
-    time_axes.in_time(axes, design.angular_speed, 1, "rad")
-
-
-def _acceleration(axes: Axes, design: GearedRocker) -> None:
-    linkage.chart(axes, "Output acceleration", "acceleration ratio\n[1/rad]")
-    linkage.standstills(axes, design.extreme_crank_angles)
-    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
-    axes.plot(*linkage.over_turn(design, "acceleration_ratio"), color=style.ORANGE, linewidth=1.6)
-    time_axes.in_time(axes, design.angular_speed, 2, "rad")

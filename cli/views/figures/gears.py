@@ -20,7 +20,8 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
 from gearlink.cli.views.scenes.gears import gear as gear_body
 from gearlink.cli.views.scenes.gears import holes_for, rack_scene
-from gearlink.cli.views.scenes.scene import BLUE, ORANGE, TURN, Body, Mark, Points, Readout, Reals, Scene, track
+from gearlink.cli.views.scenes.of_motion import Frame
+from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Points, Readout, Reals, Scene, track
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.parts.gears.checks import gear_quantity
@@ -49,6 +50,16 @@ def build(design: GearPairDesign, fraction: Reals) -> Scene:
     return pair_scene(design.gear_pair, ("1", "2"), fraction)
 
 
+def frame(design: GearPairDesign) -> Frame:
+    """The scene stands where the motion does, and goes on as its first gear turns."""
+
+    def inputs(fraction: Reals) -> Reals:
+        turned = build(design, np.append(0.0, fraction)).readouts[0].values
+        return np.asarray(np.radians(turned[1:] - turned[0]))
+
+    return Frame(inputs, design.moving)
+
+
 def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scene:
     """Both gears over a loop of whole pitches; at its start two flanks touch at the pitch point."""
     pitches = loop_pitches(pair.teeth)
@@ -61,8 +72,8 @@ def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scen
         second = driven_turn(pair.teeth, np.zeros_like(fraction), first)
     one, two = track(0.0, fraction), track(pair.center_distance, fraction)
     bodies = (
-        gear_body(pair, 0, one, first, turns[0], BLUE, labels[0], f"gear {labels[0]}"),
-        gear_body(pair, 1, two, second, turns[1], ORANGE, labels[1], f"gear {labels[1]}"),
+        gear_body(pair, 0, one, first, turns[0], style.BLUE, labels[0], f"gear {labels[0]}"),
+        gear_body(pair, 1, two, second, turns[1], style.ORANGE, labels[1], f"gear {labels[1]}"),
     )
     behind, before = bodies[::-1] if pair.internal else bodies
     readouts = tuple(
@@ -265,31 +276,14 @@ def zone_frame(axes: Axes, pitch: complex, wide: float, high: float, names: tupl
 
 def contact_path(axes: Axes, geometry: Contact, length: float) -> None:
     """Line of action, path of contact from A to E, and where flanks touch now."""
-    pitch, way = geometry.pitch_point, geometry.direction
-    line = [pitch - length * way, pitch + length * way]
-    axes.plot([p.real for p in line], [p.imag for p in line], color=style.BLACK, linewidth=0.8, label="line of action")
-    ends = [geometry.contact_start, geometry.contact_end]
-    axes.plot(
-        [p.real for p in ends],
-        [p.imag for p in ends],
-        color=style.RED,
-        linewidth=2.4,
-        marker="|",
-        markersize=11,
-        label="path of contact A–E",
-        zorder=5,
-    )
-    touching = geometry.contacts
-    axes.plot(
-        [p.real for p in touching],
-        [p.imag for p in touching],
-        "o",
-        color="white",
-        markeredgecolor=style.RED,
-        markersize=5.5,
-        label="contact points",
-        zorder=6,
-    )
+    pitch, ends = geometry.pitch_point, (geometry.contact_start, geometry.contact_end)
+    action = pitch + length * geometry.direction * np.array([-1.0, 1.0])
+    path, touching = np.array(ends), np.array(geometry.contacts)
+    marked: dict[str, Any] = {"color": style.RED, "linewidth": 2.4, "marker": "|", "markersize": 11, "zorder": 5}
+    dots: dict[str, Any] = {"color": "white", "markeredgecolor": style.RED, "markersize": 5.5, "zorder": 6}
+    axes.plot(action.real, action.imag, color=style.BLACK, linewidth=0.8, label="line of action")
+    axes.plot(path.real, path.imag, **marked, label="path of contact A–E")
+    axes.plot(touching.real, touching.imag, "o", **dots, label="contact points")
     for name, point, shift in (("A", ends[0], (8, -4)), ("C", pitch, (8, -4)), ("E", ends[1], (8, -2))):
         _boxed(axes, name, point, shift)
 
@@ -374,17 +368,11 @@ def _small_alone(axes: Axes, scene: Scene, mesh: Mesh) -> None:
     small = 0 if abs(tips[0]) < abs(tips[1]) else 1
     if pair.center_distance < 0.0 or 2.0 * tips[small] > _SMALL * (sum(tips) + pair.center_distance):
         return
-    detail = axes.inset_axes((0.73 * small + 0.01, 0.6, 0.25, 0.3), zorder=9)
-    scene_axes.draw(detail, scene)
-    detail.set_aspect("equal")
     reach, x = 1.3 * tips[small], small * pair.center_distance
-    detail.set_xlim(x - reach, x + reach)
-    detail.set_ylim(-reach, reach)
+    box = 0.73 * small + 0.01, 0.6, 0.25, 0.3
+    detail = scene_axes.magnified(axes, box, scene, complex(x), reach, "magnified")
     detail.set_xticks([])
-    detail.set_yticks([])
-    detail.set_title("magnified", loc="left", fontsize=7)
     for text in detail.texts:
-        text.set_clip_on(True)
         text.set_visible(abs(getattr(text, "xy", text.get_position())[0] - x) < reach)
 
 
@@ -505,9 +493,6 @@ _LOOKS = (
 _FOOT = ("data", "axes fraction")
 _SLIDING = -6.0, 1.5
 """What is shown of the specific sliding, which is at most 1 where flanks touch."""
-_STEP = 0.15
-"""Points of a line farther apart than this, in both shifts, belong to different branches."""
-
 
 _SHARE = 0.7
 """Of a page's height."""
@@ -535,9 +520,9 @@ def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
     _free(axes, contour)
     axes.plot([], [], color=style.GREEN, alpha=0.25, linewidth=6, label="free of all that blocks")
     named: set[str] = set()
-    for name, points in contour.points.items():
+    for name, branches in contour.branches.items():
         _, color, dashes, words = next(look for look in _LOOKS if name.startswith(look[0]))
-        for branch in _branches(points):
+        for branch in branches:
             label = words if words not in named else "_"
             named.add(words)
             xs, ys = zip(*branch, strict=True)
@@ -598,25 +583,6 @@ def _key(axes: Axes, handles: Sequence[Any], columns: int, left: float = 0.0) ->
     place: Any = {"loc": "upper left", "bbox_to_anchor": (left, 1.0), "borderaxespad": 0.0}
     legend = axes.legend(handles, labels, ncols=columns, **place, **look)
     legend.set_in_layout(False)
-
-
-def _branches(points: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
-    """The points of a line in the order of its branches: each goes on at both ends to what is next and near enough."""
-    left, branches = list(points), []
-    while left:
-        branch = [left.pop(0)]
-        for _ in range(2):
-            while near := [point for point in left if max(_apart(branch[-1], point)) < _STEP]:
-                following = min(near, key=lambda point: sum(d * d for d in _apart(branch[-1], point)))
-                left.remove(following)
-                branch.append(following)
-            branch.reverse()
-        branches.append(branch)
-    return branches
-
-
-def _apart(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
-    return abs(one[0] - other[0]), abs(one[1] - other[1])
 
 
 def path_plot(axes: Axes, key: Axes, data: GearData) -> None:

@@ -6,103 +6,71 @@ The scene is one revolution of the carrier.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
-from gearlink.cli.views.scenes import of_motion
-from gearlink.cli.views.scenes.gears import gear
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
+from gearlink.cli.views.scenes.gears import Toothed, train
+from gearlink.cli.views.scenes.of_motion import Positions, Seen
 from gearlink.cli.views.scenes.scene import (
-    BLACK,
-    BLUE,
     DWELL,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    TURN,
     Chain,
-    Chart,
-    Curve,
     Line,
-    Readout,
+    Part,
     Reals,
     Scene,
     bands,
     block,
     letters,
     loop,
-    standing,
 )
-from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
-from gearlink.core.parts.gears.outline.mesh_geometry import ring_turn
+from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell, outwards
+from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-def _arm(design: HypocycloidDwell, fraction: Reals) -> Scene:
-    """With an arm: positions over the turns of the carrier that bring the planet home."""
-    scene = of_motion.build(design, fraction)
-    whole = of_motion.inputs(design.moving.input, fraction)
-    links = design.moving.at(whole, 0).links
-    a, b, m = (links[link].at(name).value for link, name in (("carrier", "A"), ("planet", "B"), ("planet", "M")))
-    path = design.moving.at(of_motion.inputs(design.moving.input, loop(721)), 0).links["planet"].at("M").value
-    planet, ring = design.planet_teeth, design.ring_teeth
-    turn = ring_turn((ring, planet), whole, np.zeros_like(whole))
-    reach = float(np.abs(path).max()) * 1.1
-    far = reach * np.exp(1j * links["arm"].turn.value)
-    return replace(
-        scene,
-        parts=(
-            *gear(design.mesh, 1, a, np.zeros_like(whole), 0.0, ORANGE, "", "ring gear, fixed", design.rim_of("")),
-            *gear(design.mesh, 0, b, turn, 1.0 - ring / planet, BLUE, "2", "planet"),
-            standing(path, fraction, GREEN, "path of the point M"),
-            Chain(joints=(a, far), color=PURPLE, width=5.0, marked=False),
-            Chain(joints=(a, b, m), color=BLUE),
-        ),
-        marks=letters("A", A=a, B=b, M=m),
-    )
-
-
 def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
-    """Positions over fractions of the loop, from mid-dwell on."""
-    if design.spec.is_arm:
-        return _arm(design, fraction)
-    t = TURN * fraction
-    now, whole = (design.moving.at(angles, 0).links for angles in (t, TURN * loop(361)))
-    a, b, m, f = (
-        now[link].at(name).value for link, name in (("carrier", "A"), ("carrier", "B"), ("rod", "M"), ("rod", "F"))
+    """Positions over fractions of the loop, from mid-dwell on; with an arm over the turns that bring the planet
+    home."""
+    here = Positions.of(design, fraction)
+    whole = Positions.of(design, loop(721))
+    a, b, m = here.at("carrier", "A"), here.at("carrier", "B"), here.at("planet", "M")
+    path = whole.at("planet", "M")
+    ring, planet = train(
+        here,
+        [design.mesh],
+        (
+            Toothed(FRAME, 0j, style.ORANGE, "", "ring gear, fixed", ring=True, rim=design.rim_of("")),
+            Toothed("planet", 0j, style.BLUE, "2", "planet"),
+        ),
     )
-    rest = design.slider.point(0.0).real + design.slider.rod
-    inwards, course = rest - now["slider"].origin.value.real, rest - whole["slider"].origin.value.real
-    planet, ring = design.planet_teeth, design.ring_teeth
-    turn = ring_turn((ring, planet), t, np.zeros_like(t))
-    size = 0.5 * design.point_radius
-    half = np.degrees(0.5 * design.dwell_carrier_angle)
-    way = rest - np.array([course.min() - size, course.max() + size]) + 0j
-    return Scene(
-        parts=(
-            *gear(design.mesh, 1, a, np.zeros_like(t), 0.0, ORANGE, "", "ring gear, fixed", design.rim_of("")),
-            *gear(design.mesh, 0, b, turn, 1.0 - ring / planet, BLUE, "2", "planet"),
-            standing(whole["planet"].at("M").value, fraction, GREEN, "path of the point M"),
-            *(Line(points=way + side * 0.5j * size, width=1.5) for side in (-1.0, 1.0)),
-            block(f, 1.6 * size, size, BLACK),
-            Chain(joints=(a, b, m), color=BLUE),
-            Chain(joints=(m, f)),
-        ),
+    parts: list[Part] = [
+        *ring,
+        *planet,
+        here.body(FRAME, path, style.GREEN, 0.0, width=1.5, name="path of the point M"),
+    ]
+    links = Chain(joints=(a, b, m), color=style.BLUE)
+    if design.spec.is_arm:
+        far = 1.1 * float(np.abs(path).max()) * np.exp(1j * here.turn("arm"))
+        arm = Chain(joints=(a, far), color=style.PURPLE, width=5.0, marked=False)
+        seen, marks = {"Arm": Seen(turned("arm"), style.BLUE)}, letters("A", A=a, B=b, M=m)
+        return here.scene((*parts, arm, links), seen, "Arm [deg]", marks=marks)
+    f, size, ends = here.at("rod", "F"), 0.5 * design.point_radius, whole.at("slider").real
+    way = np.array([ends.max() + size, ends.min() - size]) + 0j
+    parts += [Line(points=way + side * 0.5j * size, width=1.5) for side in (-1.0, 1.0)]
+    half = math.degrees(0.5 * design.dwell_carrier_angle)
+    return here.scene(
+        (*parts, block(f, 1.6 * size, size, style.BLACK), links, Chain(joints=(m, f))),
+        {"slider": _slider(design)},
+        "slider, inwards from mid-dwell [mm]",
+        marked=bands([("required dwell", -half, half, DWELL)]),
         marks=letters("A", A=a, B=b, M=m, F=f),
-        chart=Chart(
-            "carrier angle [deg]",
-            "slider, inwards from mid-dwell [mm]",
-            360.0 * loop(361),
-            np.degrees(t),
-            (Curve("slider", BLUE, course, inwards),),
-            bands([("required dwell", -half, half, DWELL)]),
-        ),
-        readouts=(Readout("carrier", "°", np.degrees(t)), Readout("slider", " mm", inwards)),
     )
 
 
@@ -121,8 +89,6 @@ _WORDS = {
 def draw(command: str, design: HypocycloidDwell) -> Figure:
     """The sheet of a command on a hypocycloid dwell."""
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.mesh, "", ("2", "ring"))])
     if design.spec.is_arm:
         from gearlink.cli.views.figures import of_motion
@@ -137,8 +103,8 @@ def mechanism(axes: Axes, design: HypocycloidDwell) -> None:
     """The mechanism at an end of its dwell, its links apart; lightly in mid-dwell and at the other end."""
     slider, half = design.slider, 0.5 * design.dwell_carrier_angle
     panels.heading(axes, f"Mechanism at the end of the dwell, carrier angle {math.degrees(half):.5g}°")
-    scene = build(design, np.array([half, 0.0, -half]) / (2.0 * math.pi))
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([half / (2.0 * math.pi) + scene_axes.AHEAD])))
+    share = half / (2.0 * math.pi)
+    scene = scene_axes.turned(axes, design, build, share, 0.0, -share)
     scene_axes.lightly(axes, scene, 1, name="mid-dwell and start of the dwell")
     scene_axes.lightly(axes, scene, 2)
     arc = np.array([slider.point(t) for t in np.linspace(-half, half, 121)])
@@ -153,28 +119,25 @@ def _mark(axes: Axes, design: HypocycloidDwell, words: str | None = None) -> Non
     axes.axvspan(-half, half, **linkage.DWELL, label=words)
 
 
-def _deviations(design: HypocycloidDwell, half: float) -> tuple[list[float], list[float]]:
-    """Carrier angle [deg] and deviation [mm] about mid-dwell."""
-    degrees = [half * (i / 200.0 - 1.0) for i in range(401)]
-    return degrees, [design.slider.deviation(math.radians(x)) for x in degrees]
+def _inwards(axes: Axes, design: HypocycloidDwell, title: str, half: float) -> None:
+    """The slider over carrier angles [deg] about mid-dwell."""
+    linkage.chart(axes, title, "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
+    degrees = np.linspace(-half, half, 401)
+    axes.plot(degrees, _slider(design).at(design.moving, np.radians(degrees)), color=style.BLUE, linewidth=1.6)
 
 
 def _turn(axes: Axes, design: HypocycloidDwell) -> None:
-    linkage.chart(axes, "Slider over a revolution", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
+    _inwards(axes, design, "Slider over a revolution", 180.0)
     _mark(axes, design, "required dwell")
-    axes.plot(*_deviations(design, 180.0), color=style.BLUE, linewidth=1.6)
     panels.legend_above(axes, 1)
-    axes.set_xlim(-180.0, 180.0)
-    axes.set_xticks(range(-180, 181, 60))
+    _whole(axes)
 
 
 def _magnified(axes: Axes, design: HypocycloidDwell) -> None:
     """The dwell and a little beside it, with the band of the tolerance."""
-    linkage.chart(axes, "Dwell, magnified", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
-    _mark(axes, design)
     reach = max(design.dwell_carrier_angle, design.tolerance_carrier_angle or 0.0)
-    degrees, values = _deviations(design, math.degrees(0.55 * reach))
-    axes.plot(degrees, values, color=style.BLUE, linewidth=1.6)
+    _inwards(axes, design, "Dwell, magnified", math.degrees(0.55 * reach))
+    _mark(axes, design)
     tolerance, angle = design.spec.dwell.tolerance, design.tolerance_carrier_angle
     if tolerance is not None and angle is not None:
         low, high = design.slider.deviation_range(angle)
@@ -186,8 +149,16 @@ def _magnified(axes: Axes, design: HypocycloidDwell) -> None:
 def _transmission(axes: Axes, design: HypocycloidDwell) -> None:
     """Angle between the rod and the normal of the slide line."""
     degrees = np.arange(-360, 361) * 0.5
-    angles = [90.0 - abs(math.degrees(design.slider.rod_angle(math.radians(x)))) for x in degrees.tolist()]
-    linkage.transmission(axes, design, degrees, np.array(angles), "carrier angle [deg]", turn=False)
+    linkage.transmission(axes, design, degrees, "carrier angle [deg]", turn=False)
     _mark(axes, design)
+    _whole(axes)
+
+
+def _whole(axes: Axes) -> None:
+    """A revolution about mid-dwell."""
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks(range(-180, 181, 60))
+
+
+def _slider(design: HypocycloidDwell) -> Seen:
+    return Seen(outwards(design).scaled(-1.0), style.BLUE, "mm")

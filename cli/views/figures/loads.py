@@ -6,7 +6,7 @@ The sheet of forces has on one A4 the mechanism with force arrows, the torque, a
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import cycle
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.drawing.linkage import closed
 from gearlink.cli.views.figures.sheets.vector_sheet import fraction_at, frame_of
 from gearlink.cli.views.scenes import shown
 from gearlink.core.base.kinds import KINDS
@@ -32,23 +33,29 @@ _TURN = 360.0
 
 def forces(axes: Axes, design: Any) -> None:
     """Force between each roller and its cam."""
-    x, columns = _contact(axes, design, "Contact forces", "force [N]")
-    for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
-        axes.plot(x, columns[f"{name}_force"], color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
+    _rollers(axes, design, "Contact forces", "force [N]", "force")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     panels.legend_above(axes, 2)
 
 
 def pressures(axes: Axes, design: Any) -> None:
     """Hertzian pressure of each roller, and what is allowed."""
-    x, columns = _contact(axes, design, "Hertzian pressure", "p [N/mm²]")
-    for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
-        pressure = columns[f"{name}_pressure"]
-        axes.plot(x, pressure, color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
-        _too_much(axes, design, x, pressure)
+    _rollers(axes, design, "Hertzian pressure", "p [N/mm²]", "pressure")
     _allowed(axes, design)
     axes.set_ylim(bottom=0.0)
     panels.legend_above(axes, 3)
+
+
+def _rollers(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> None:
+    """What each roller bears on its cam."""
+    table = design.table("contact", samples=720)
+    panels.turn_panel(axes, ylabel, "input angle [deg]", title)
+    x = np.arange(table.length) * (_TURN * design.turns / table.length)
+    for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
+        values = table[f"{name}_{column}"]
+        axes.plot(x, values, color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
+        if column == "pressure":
+            _too_much(axes, design, x, values)
 
 
 def _allowed_pressure(design: Any) -> float | None:
@@ -71,14 +78,6 @@ def _allowed(axes: Axes, design: Any) -> None:
         axes.axhline(limit, color=style.RED, linewidth=1.0, linestyle=style.DASHED, label=f"allowed {limit:g}")
 
 
-def _contact(axes: Axes, design: Any, title: str, ylabel: str) -> tuple[Any, dict[str, Any]]:
-    table = design.table("contact", samples=720)
-    panels.turn_panel(axes, ylabel, "input angle [deg]")
-    panels.heading(axes, title)
-    x = np.arange(table.length) * (_TURN * design.turns / table.length)
-    return x, {name: np.asarray(data) for name, data in zip(table.columns, table.data, strict=True)}
-
-
 def residual(axes: Axes, design: Any) -> None:
     """Vibration that is left in the dwell, over the speed, with the working speed and what is allowed."""
 
@@ -86,9 +85,7 @@ def residual(axes: Axes, design: Any) -> None:
     speed, amplitude = table["speed"], table["residual"]
     unit = table.units[table.columns.index("residual")]
     words = table.units[table.columns.index("speed")].replace("1/min", "rev/min")
-    style.curves(axes, f"speed [{words}]", f"residual [{unit}]")
-    panels.small_ticks(axes)
-    panels.heading(axes, "Residual vibration over the speed")
+    panels.curves(axes, f"speed [{words}]", f"residual [{unit}]", "Residual vibration over the speed")
     axes.plot(speed, amplitude, color=style.PURPLE, linewidth=1.4)
     at = float(speed[-1]) / 1.3
     axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=f"speed {at:.5g}")
@@ -118,44 +115,29 @@ def profile(axes: Axes, design: Any, name: str) -> None:
 
 def _colored(axes: Axes, points: Any, values: Any, title: str, limit: float | None) -> None:
     """A profile by its pressure, on a scale from 0 to what is allowed, where that is known; red above it."""
-    from matplotlib.collections import LineCollection
-
     panels.drawing(axes, title)
     panels.few_ticks(axes.xaxis, 4)
-    axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
-    xy = np.column_stack((points.real, points.imag))
-    pieces, level = np.stack((xy[:-1], xy[1:]), axis=1), 0.5 * (values[:-1] + values[1:])
-    whole = np.isfinite(pieces).all(axis=(1, 2))
-    known = whole & np.isfinite(level)
-    lines = LineCollection(pieces[known].tolist(), cmap="viridis", linewidths=2.6)
-    lines.set_array(level[known])
-    lines.set_clim(0.0, limit if limit is not None else None)
-    axes.add_collection(lines)
-    above = known & (np.nan_to_num(level) > (math.inf if limit is None else limit))
+    panels.heading(axes, title)
+    level = 0.5 * (values[:-1] + values[1:])
+    pieces, _ = panels.by_value(axes, points, level, limit, 2.6, (1.03, 0.1, 0.05, 0.8))
+    above = np.nan_to_num(level) > (math.inf if limit is None else limit)
+    undercut = np.isfinite(pieces).all(axis=(1, 2)) & ~np.isfinite(level)
     if above.any():
-        words = f"above {limit:g}"
-        look: dict[str, Any] = {"colors": style.WRONG, "linewidths": 3.2, "label": words, "gid": "fails"}
-        axes.add_collection(LineCollection(pieces[above].tolist(), **look))
-        panels.legend_above(axes, 1)
-    undercut = whole & ~known
+        panels.again(axes, pieces[above], style.WRONG, 3.2, label=f"above {limit:g}", gid="fails")
     if undercut.any():
-        red = LineCollection(pieces[undercut].tolist(), colors=style.RED, linewidths=2.6, label="undercut")
-        axes.add_collection(red)
+        panels.again(axes, pieces[undercut], style.RED, 2.6, label="undercut")
+    if above.any() or undercut.any():
         panels.legend_above(axes, 1)
     axes.autoscale_view()
-    # A panel of its own would count twice in the layout of matplotlib before 3.11.
-    scale = axes.inset_axes((1.03, 0.1, 0.05, 0.8))
-    axes.figure.colorbar(lines, cax=scale)
-    scale.tick_params(labelsize=7)
 
 
 def stroke_sheet(design: Any) -> Figure:
     """The sheet of a wide-swing stroke: force, pressure, torque of the cam, residual vibration, and the cam."""
     has = {"pressure": design.section.roller is not None, "residual": design.section.vibration is not None}
     count = 2 + sum(has.values())
-    made = panels.page(f"{design.spec.name}: loads", 0.21 * count + 0.3 * has["pressure"], large=False)
-    rows = made.add_gridspec(count + has["pressure"], 1, height_ratios=[1.0] * count + [1.5] * has["pressure"])
-    grid = iter(made.add_subplot(rows[row, 0]) for row in range(count + has["pressure"]))
+    heights, share = [1.0] * count + [1.5] * has["pressure"], 0.21 * count + 0.3 * has["pressure"]
+    made, rows = panels.stack(f"{design.spec.name}: loads", heights, share, large=False)
+    grid = iter(rows)
     stroke_forces(next(grid), design)
     if has["pressure"]:
         stroke_pressures(next(grid), design)
@@ -163,7 +145,7 @@ def stroke_sheet(design: Any) -> Figure:
     title = "Torque on the cam" if design.spec.drive is None else "Torque on the crank"
     _stroke(axes, design, title, "torque [N m]", "input_torque")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    time_axes.once(made.axes, 2e3 * math.pi / design.speed)
+    time_axes.once(rows[: 2 + has["pressure"]], 2e3 * math.pi / design.speed)
     if has["residual"]:
         residual(next(grid), design)
     if has["pressure"]:
@@ -203,9 +185,7 @@ def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
 def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_rest: Any = None) -> None:
     """A column of each stroke over the cam angle, and a function of the rests, in which the rollers press as well."""
     table = design.table("contact_stroke", samples=400)
-    style.curves(axes, f"{'cam' if design.spec.drive is None else 'crank'} angle [deg]", ylabel)
-    panels.small_ticks(axes)
-    panels.heading(axes, title)
+    panels.curves(axes, f"{'cam' if design.spec.drive is None else 'crank'} angle [deg]", ylabel, title)
     for stroke, color, line in zip(design.strokes, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         later = "" if stroke.name == "main" else "return_"
         values = table[column.format(stroke.name) if "{}" in column else f"{later}{column}"].astype(float)
@@ -323,7 +303,7 @@ def _panels_of(design: Any) -> tuple[list[Panel], list[str], list[str]]:
     curves = [panel for panel, wanted in _CURVES if wanted(design)]
     curves[2:2] = _joint_panels(design)
     known = {name for name in design.pins if design.has(name) and name not in design.unknown_joints}
-    pins = [names[0] for names in _alike(design, _columns(design, "joints"), _XY) if names[0] in known]
+    pins = [names[0] for names in _alike_pins(design, _XY) if names[0] in known]
     return curves, pins, _cams(design)
 
 
@@ -344,58 +324,46 @@ def _profile(axes: Axes, design: Any, name: str) -> None:
         profile(axes, design, name)
 
 
-def _columns(design: LoadsDesign, table: str) -> dict[str, Any]:
-    found = design.table(table)
-    return {name: np.asarray(values) for name, values in zip(found.columns, found.data, strict=True)}
-
-
 def _forces_of(design: LoadsDesign, table: str = "joints") -> dict[str, Any]:
     """Columns of the joints, or of the frame, with 0 for what is rounding beside the largest joint force."""
-    columns = _columns(design, table)
+    found = design.table(table)
+    columns = {name: found[name] for name in found.columns}
     if design.locked:  # by friction: the joints have no forces
         return columns
-    joints = columns if table == "joints" else _columns(design, "joints")
-    sizes = (float(np.abs(joints[name]).max()) for name in design.pins if name in joints)
+    joints = columns if table == "joints" else design.table("joints")
+    sizes = (float(np.abs(joints[name]).max()) for name in _pins_in(design))
     rounding = _ROUNDING * max(sizes, default=0.0)
     return {name: np.where(np.abs(values) < rounding, 0.0, values) for name, values in columns.items()}
 
 
-def _closed(values: Any) -> Any:
-    return np.append(values, values[:1])
+def _pins_in(design: LoadsDesign) -> list[str]:
+    """The pins that the table of the joints has."""
+    columns = design.table("joints").columns
+    return [name for name in design.pins if name in columns]
 
 
 def _over_turn(axes: Axes, design: LoadsDesign, title: str, ylabel: str) -> None:
     turns = min(design.turns, 100)
-    style.curves(axes, "input angle [deg]", ylabel)
-    panels.small_ticks(axes)
-    panels.heading(axes, title)
+    panels.curves(axes, "input angle [deg]", ylabel, title)
     axes.set_xlim(0.0, 360.0 * turns)
     step = 30.0 if turns == 1 else 360.0 * max(1, turns // 10)
     style.numbers_at(axes, [i * step for i in range(math.floor(360.0 * turns / step) + 1)])
 
 
-def _angles(columns: dict[str, Any], design: LoadsDesign) -> Any:
-    return np.append(columns["input_angle"], 360.0 * min(design.turns, 100))
+def _angles(table: Any, design: LoadsDesign) -> Any:
+    return np.append(table["input_angle"], 360.0 * min(design.turns, 100))
 
 
 def _torque(axes: Axes, design: LoadsDesign) -> None:
     """Input torque with its two parts and its mean."""
     _over_turn(axes, design, "Input torque", "torque [N m]")
-    columns = _columns(design, "torque")
-    x = _angles(columns, design)
+    table = design.table("torque")
+    x = _angles(table, design)
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    axes.plot(
-        x,
-        _closed(columns["inertia_part"]),
-        color=style.ORANGE,
-        linewidth=0.9,
-        linestyle=style.LONG,
-        label="of the masses",
-    )
-    axes.plot(
-        x, _closed(columns["load_part"]), color=style.GREEN, linewidth=0.9, linestyle=style.CHAIN, label="of the load"
-    )
-    axes.plot(x, _closed(columns["input_torque"]), color=style.BLUE, linewidth=1.7, label="whole", gid="input-torque")
+    parts = ("inertia_part", style.ORANGE, style.LONG, "masses"), ("load_part", style.GREEN, style.CHAIN, "load")
+    for column, color, line, words in parts:
+        axes.plot(x, closed(table[column]), color=color, linewidth=0.9, linestyle=line, label=f"of the {words}")
+    axes.plot(x, closed(table["input_torque"]), color=style.BLUE, linewidth=1.7, label="whole", gid="input-torque")
     mean = design.input_torque_mean
     axes.axhline(mean, color=style.GREY, linewidth=0.9, linestyle=style.DOTTED, label="mean")
     for extreme, above in zip(design.torque_range, (False, True), strict=True):
@@ -407,19 +375,19 @@ def _torque(axes: Axes, design: LoadsDesign) -> None:
 def _inertia(axes: Axes, design: LoadsDesign) -> None:
     """Inertia of all links as the input feels it."""
     _over_turn(axes, design, "Reflected inertia", "J [kg m²]")
-    columns = _columns(design, "torque")
-    axes.plot(_angles(columns, design), _closed(columns["reflected_inertia"]), color=style.PURPLE, linewidth=1.5)
+    table = design.table("torque")
+    axes.plot(_angles(table, design), closed(table["reflected_inertia"]), color=style.PURPLE, linewidth=1.5)
     axes.set_ylim(bottom=0.0)
 
 
 def _teeth(axes: Axes, design: LoadsDesign) -> None:
     """Tangential force of every mesh; where it crosses zero the teeth change flanks."""
     _over_turn(axes, design, "Tooth forces, tangential", "force [N]")
-    columns = _columns(design, "teeth")
+    table = design.table("teeth")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     for name, color, line in zip(design.meshes_found, cycle(_COLORS), cycle(_LINES)):
         look: Any = {"color": color, "linestyle": line}
-        axes.plot(_angles(columns, design), _closed(columns[name]), linewidth=1.4, label=_words([name]), **look)
+        axes.plot(_angles(table, design), closed(table[name]), linewidth=1.4, label=_words([name]), **look)
         places = design.meshes_found[name].reversal_places
         axes.plot([math.degrees(p) for p in places], [0.0] * len(places), "o", color=style.RED, markersize=4)
     panels.legend_above(axes, 4)
@@ -427,24 +395,29 @@ def _teeth(axes: Axes, design: LoadsDesign) -> None:
 
 def _joint_panels(design: LoadsDesign) -> list[Panel]:
     """Panels of the joint forces, the largest first: few curves in each, on a scale of their own."""
-    columns = _columns(design, "joints")
-    groups = sorted(_alike(design, columns, ("",)), key=lambda names: -float(columns[names[0]].max()))
+    joints = design.table("joints")
+    groups = sorted(_alike_pins(design, ("",)), key=lambda names: -float(joints[names[0]].max()))
     count = math.ceil(len(groups) / _MOST_CURVES)
     share = math.ceil(len(groups) / max(count, 1))
     return [partial(_forces, groups=groups[share * i : share * (i + 1)], first=i == 0) for i in range(count)]
 
 
-def _alike(design: LoadsDesign, columns: dict[str, Any], parts: Sequence[str]) -> list[list[str]]:
-    """The joints of a table, those together whose forces have the same parts: "" for the magnitude, "_x", "_y"."""
+def _alike_pins(design: LoadsDesign, parts: Sequence[str]) -> list[list[str]]:
+    """The pins, those together whose forces have the same parts: "" for the magnitude, "_x", "_y"."""
+    joints = design.table("joints")
+    return _alike({name: np.stack([joints[name + part] for part in parts]) for name in _pins_in(design)})
+
+
+def _alike(forces: Mapping[str, Reals]) -> list[list[str]]:
+    """Names of forces, those together that are the same but for rounding of the largest."""
     found: list[list[str]] = []
-    for name in (name for name in design.pins if name in columns):
-        same = (
-            names
-            for names in found
-            if all(np.allclose(columns[name + end], columns[names[0] + end], rtol=_SAME) for end in parts)
-        )
-        if (names := next(same, None)) is not None:
-            names.append(name)
+    rounding = _SAME * max((float(np.abs(values).max()) for values in forces.values()), default=0.0)
+    for name, values in forces.items():
+        for names in found:
+            other = forces[names[0]]
+            if np.allclose(values, other, rtol=_SAME, atol=rounding):
+                names.append(name)
+                break
         else:
             found.append([name])
     return found
@@ -467,7 +440,7 @@ def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *,
     for names, color, line in zip(groups, cycle(_COLORS), cycle(_LINES)):
         values = columns[names[0]]
         label = f"{_words(names)}, ≤ {float(f'{values.max():.3g}'):g} N"
-        axes.plot(_angles(columns, design), _closed(values), color=color, linestyle=line, linewidth=1.3, label=label)
+        axes.plot(_angles(columns, design), closed(values), color=color, linestyle=line, linewidth=1.3, label=label)
     axes.set_ylim(bottom=0.0)
     panels.legend_above(axes, 4)
 
@@ -475,8 +448,8 @@ def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *,
 def _speed(axes: Axes, design: LoadsDesign) -> None:
     """Speed of the input with its flywheel or motor."""
     _over_turn(axes, design, "Speed of the input", "speed [rev/min]")
-    columns = _columns(design, "speed")
-    axes.plot(_angles(columns, design), _closed(columns["speed"]), color=style.BLUE, linewidth=1.5)
+    table = design.table("speed")
+    axes.plot(_angles(table, design), closed(table["speed"]), color=style.BLUE, linewidth=1.5)
     axes.margins(y=0.15)
 
 
@@ -500,7 +473,7 @@ def _deflection(axes: Axes, design: LoadsDesign) -> None:
 def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:
     """Force on the second link of a joint as a curve, round the joint."""
     columns = _forces_of(design)
-    names = next(names for names in _alike(design, columns, _XY) if name in names)
+    names = next(names for names in _alike_pins(design, _XY) if name in names)
     title = f"Pin{'s' if len(names) > 1 else ''} {_words(names)}"
     _round(axes, title, columns, f"{name}_x", f"{name}_y", style.BLUE)
 
@@ -560,7 +533,7 @@ def _locus(axes: Axes, title: str, x: Any, y: Any, color: str) -> None:
     style.curves(axes, "", "")
     panels.heading(axes, f"{title} [N]")
     axes.set_aspect("equal", adjustable="datalim")
-    whole = _closed(x) + 1j * _closed(y)
+    whole = closed(x) + 1j * closed(y)
     places = _jumps(whole)
     torn = np.insert(whole, places + 1, complex(math.nan, math.nan))
     axes.plot(torn.real, torn.imag, color=color, linewidth=1.4)
@@ -626,17 +599,11 @@ def _inputs(loads: Any) -> Reals:
 def courses(loads: Any) -> dict[str, Reals]:
     """Magnitudes of all forces over the period [N], those that are equal under one name, the largest first."""
     found = vectors.loads_of(loads.machine.reactions(_inputs(loads)), tuple(loads.unknown_joints))
-    groups: list[tuple[list[str], Reals]] = []
-    for name, load in found.items():
-        size = np.abs(load.force)
-        for names, other in groups:
-            if np.allclose(size, other, rtol=_SAME, atol=_SAME * float(other.max())):
-                names.append(name)
-                break
-        else:
-            groups.append(([name], size))
-    groups.sort(key=lambda group: -float(group[1].max()))
-    return {", ".join(name.replace("_", " ") for name in names): values for names, values in groups}
+    sizes = {name: np.abs(load.force) for name, load in found.items()}
+    rounding = _ROUNDING * max((float(each.max()) for each in sizes.values()), default=0.0)
+    sizes = {name: np.where(each < rounding, 0.0, each) for name, each in sizes.items()}
+    groups = sorted(_alike(sizes), key=lambda names: -float(sizes[names[0]].max()))
+    return {_words(names): sizes[names[0]] for names in groups}
 
 
 def largest_torque(loads: Any) -> float:
@@ -668,8 +635,7 @@ def analysed(loads: Any) -> Any:
 
 def _over_input(axes: Axes, loads: Any) -> Reals:
     x = np.degrees(_inputs(loads))
-    style.curves(axes, "", "")
-    panels.small_ticks(axes)
+    panels.curves(axes, "", "")
     axes.set_xlim(0.0, float(x[-1]))
     style.numbers_at(axes, [float(each) for each in np.linspace(0.0, x[-1], 5)])
     axes.tick_params(labelsize=6.5)

@@ -13,17 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
+from gearlink.cli.views.figures.sheets import timing_sheet
 from gearlink.cli.views.scenes.linkages import builder
 from gearlink.cli.views.scenes.scene import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
     PHASE_TINTS,
-    PURPLE,
-    RED,
-    SKY,
     Arrow,
     Body,
     Chain,
@@ -37,6 +30,7 @@ from gearlink.cli.views.scenes.scene import (
     Reals,
     Scene,
     loop,
+    points_of,
     track,
 )
 from gearlink.core.machines.machine.relations import Before, Value
@@ -49,7 +43,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.machine.series import OnShaft
 
 
-_MEMBER_COLORS = (BLUE, ORANGE, GREEN, PURPLE, RED, SKY, GREY, BLACK)
+_MEMBER_COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.RED, style.SKY, style.GREY, style.BLACK)
 _CELL = 100.0
 """Width of the place of a member, and its height; what it shows is scaled into nine tenths of it."""
 _WIDE = 1.7
@@ -102,18 +96,12 @@ def _fit(own: Scene, corner: complex) -> tuple[float, complex]:
 
 def _ends(part: Part) -> Points:
     """Points as far out as a part ever reaches."""
-    if isinstance(part, Line):
-        return part.points
-    if isinstance(part, Chain):
-        return np.concatenate([np.asarray(joint) for joint in part.joints])
-    if isinstance(part, Arrow):
-        return np.concatenate([part.start, part.start + part.vector])
-    outline = np.asarray(part.outline)
+    if not isinstance(part, Body):
+        return np.concatenate([points_of([part]), part.start if isinstance(part, Arrow) else []])
     if part.repeats == 0 or np.ptp(part.turn) > math.pi:
-        reach = float(np.abs(outline).max()) if outline.size else 0.0
+        reach = float(np.abs(part.outline).max(initial=0.0))
         return np.concatenate([part.place + reach * corner for corner in (1.0, -1.0, 1j, -1j)])
-    placed = np.asarray(part.place)[:, None] + outline[None, :] * np.exp(1j * np.asarray(part.turn))[:, None]
-    return np.asarray(placed.ravel())
+    return points_of([part])
 
 
 def _moved(part: Part, scale: float, shift: complex) -> Part:
@@ -128,7 +116,7 @@ def _moved(part: Part, scale: float, shift: complex) -> Part:
     return replace(body, turn=turn, label="", name="")
 
 
-def _shown(design: Machine, name: str, degrees: Reals) -> tuple[Reals, str]:
+def _shown(design: Any, name: str, degrees: Reals) -> tuple[Reals, str]:
     """The output of a member at machine angles, in mm or deg."""
     member: Any = design.members[name]
     value = member.rates(np.radians(degrees - design.phases[design.spec.root(name)]), 0)[0]
@@ -182,13 +170,6 @@ def _degrees(design: Any) -> Any:
     return np.linspace(0.0, design.timing.dial, 720 * design.cycle_turns + 1)
 
 
-def _positions(design: Any, name: str) -> tuple[Any, str]:
-    """The output of a member over the dial, in mm or deg."""
-    member = design.members[name]
-    value = member.rates(np.radians(_degrees(design) - design.phases[design.spec.root(name)]), 0)[0]
-    return (np.degrees(value), "°") if member.course.unit == "rad" else (value, " mm")
-
-
 def _runs(design: Any, name: str) -> list[tuple[str, float, float]]:
     """Runs of a member, from a start on the dial."""
     phase = design.phases[design.spec.root(name)]
@@ -217,7 +198,7 @@ def _line(axes: Axes, design: Any) -> None:
     rows = {name: float(len(members) - 1 - i) for i, name in enumerate(members)}
     labels = []
     for name, bottom in rows.items():
-        values, unit = _positions(design, name)
+        values, unit = _shown(design, name, _degrees(design))
         low, high = float(values.min()), float(values.max())
         share = (values - low) / (high - low) if high > low else np.zeros_like(values)
         axes.plot(_degrees(design), bottom + _BAR + 0.1 + 0.6 * share, color=style.BLUE, linewidth=1.6, label=name)
@@ -315,14 +296,9 @@ def _key(axes: Axes, design: Any) -> None:
 def _circle(axes: Any, design: Any) -> None:
     """A ring for each member with its runs and its curve, the first outside; machine angle 0 at the top, clockwise."""
     members, dial = list(design.spec.members), design.timing.dial
-    axes.set_theta_zero_location("N")
-    axes.set_theta_direction(-1)
-    step = 10 * design.cycle_turns
-    marks = np.arange(0.0, dial, step)
-    axes.set_xticks(2.0 * math.pi * marks / dial, [f"{each:g}°" if i % 3 == 0 else "" for i, each in enumerate(marks)])
-    axes.set_yticks([])
-    axes.spines["polar"].set_visible(False)
-    axes.grid(color=style.LIGHT, linewidth=0.5)
+    marks = np.arange(0.0, dial, 10 * design.cycle_turns)
+    named = [f"{each:g}°" if i % 3 == 0 else "" for i, each in enumerate(marks)]
+    timing_sheet.clock(axes, 2.0 * math.pi * marks / dial, named, linewidth=0.5)
     radii = {name: _INNER + len(members) - 1 - i for i, name in enumerate(members)}
     turn = 2.0 * math.pi / dial
     for name, radius in radii.items():
@@ -332,9 +308,10 @@ def _circle(axes: Any, design: Any) -> None:
             middle = 0.5 * (start + end) * turn
             if (end - start) * turn * (radius + 0.5) > 0.55:
                 last = end % dial or dial  # a run that ends with the turn ends at 360
+                turned = timing_sheet.along(middle)
                 axes.text(middle, radius + 0.14, f"{word} {start % dial:.4g}–{last:.4g}°", fontsize=7,
-                          ha="center", va="center", rotation=_along(middle), rotation_mode="anchor")  # fmt: skip
-        values, _ = _positions(design, name)
+                          ha="center", va="center", rotation=turned, rotation_mode="anchor")  # fmt: skip
+        values, _ = _shown(design, name, _degrees(design))
         span = float(np.ptp(values))
         share = (values - values.min()) / span if span > 0.0 else np.zeros_like(values)
         axes.plot(_degrees(design) * turn, radius + 0.26 + 0.58 * share, color=style.BLUE, linewidth=1.3)
@@ -344,12 +321,6 @@ def _circle(axes: Any, design: Any) -> None:
     axes.text(0.5, 0.5, "machine angle,\nclockwise from the top", transform=axes.transAxes, ha="center", va="center",
               fontsize=9, color=style.GREY)  # fmt: skip
     _list_of_relations(axes, design)
-
-
-def _along(angle: float) -> float:
-    """How words along a ring are turned [deg]."""
-    degrees = math.degrees(angle) % 360.0
-    return -degrees if degrees <= 90.0 or degrees >= 270.0 else 180.0 - degrees
 
 
 def _list_of_relations(axes: Any, design: Any) -> None:
@@ -407,9 +378,7 @@ def _loads(design: Any) -> Figure:
 
 
 def _over(axes: Axes, design: Any, title: str, ylabel: str) -> None:
-    style.curves(axes, "machine angle [deg]", ylabel)
-    panels.small_ticks(axes)
-    panels.heading(axes, title)
+    panels.curves(axes, "machine angle [deg]", ylabel, title)
     axes.set_xlim(0.0, 360.0 * design.turns)
     style.numbers_at(axes, list(range(0, 360 * design.turns + 1, 30 * design.turns)))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import cycle, islice
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
-from gearlink.core.parts.cams.law_tables import MotionLaws
+from gearlink.core.parts.cams.law_tables import MotionLaws, acceleration_jumps
 from gearlink.core.parts.cams.laws import Law
 from gearlink.core.parts.cams.laws import law as law_of
 
@@ -94,12 +93,8 @@ def write_residuals(name: str, found: Sequence[Vibration], options: Options) -> 
     Raises
         CannotWrite - where the folder or the disk does not take the file
     """
-    from gearlink.cli.files import safe_stem, write_atomically
     from gearlink.cli.views.figures.drawing.placing import settled
-    from gearlink.cli.views.figures.write import save
-
-    ending = options.plot_format.value
-    path = options.out / f"{safe_stem(name)}-residual-chart.{ending}"
+    from gearlink.cli.views.figures.write import write_figure
 
     def make() -> Figure:
         figure = panels.page(f"{name}: vibration that its laws leave, over the rise")
@@ -110,8 +105,7 @@ def write_residuals(name: str, found: Sequence[Vibration], options: Options) -> 
             axes.set_xlabel(unit)
         return settled(figure)
 
-    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi, quiet=options.quiet))
-    return path
+    return write_figure(make, name, "residual-chart", options)
 
 
 _FAINTEST = 1e-5  # of the maximum
@@ -146,28 +140,8 @@ def _mark_infinite(axes: Axes, law: Law, color: str, taken: Counter[tuple[float,
                   transform=axes.get_xaxis_transform(), label="_infinite")  # fmt: skip
 
 
-def acceleration_jumps(law: Law) -> list[tuple[float, float]]:
-    """Where the acceleration of a law jumps, with the jump; at the ends against an acceleration of zero.
-
-    Example
-        >>> from gearlink.core.parts.cams.laws import law
-        >>> [(x, round(jump, 3)) for x, jump in acceleration_jumps(law("simple-harmonic"))]
-        [(0.0, 4.935), (1.0, 4.935)]
-    """
-    if math.isfinite(law.peak_jerk):
-        return []
-
-    def at(x: float) -> float:
-        return float(law.evaluate(x, 2)[2])
-
-    found = [(0.0, at(0.0)), *((x, at(x + _BESIDE) - at(x - _BESIDE)) for x in law.joints), (1.0, -at(1.0))]
-    return [(x, jump) for x, jump in found if abs(jump) > 1e-6 * law.peak_acceleration]
-
-
 _NEXT = 0.05
 """Of the height of the panel, from one triangle to the next."""
-_BESIDE = 1e-9
-"""So far beside a joint its two pieces are compared; a continuous acceleration changes by no more than 1e-9 jerk."""
 
 
 def _looks(count: int) -> list[dict[str, Any]]:

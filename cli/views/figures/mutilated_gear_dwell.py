@@ -7,16 +7,16 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.scenes.gears import gear
-from gearlink.cli.views.scenes.linkages import Joints
+from gearlink.cli.views.scenes.of_motion import Frame, Positions
 from gearlink.cli.views.scenes.scene import (
-    BLUE,
-    ORANGE,
     TURN,
     Band,
     Body,
@@ -35,25 +35,29 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell, driven
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, tooth_space
-from gearlink.core.parts.linkages.dyad import acute
-from gearlink.core.parts.linkages.fourbar.position import solve
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
+def frame(design: MutilatedGearDwell) -> Frame:
+    """The scene stands where the motion does, and goes straight through its range."""
+    return Frame(lambda fraction: design.moving.input.end * fraction, design.moving)
+
+
 def build(design: MutilatedGearDwell, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; the wheel turns clockwise, a motion begins at fraction 0."""
     cycles = design.mutilated.cycles_to_repeat
     turns = cycles * design.cycle_turns * fraction
-    moved, axis = _driven(design, turns), track(0.0, fraction)
+    moved, here = _driven(design, turns), Positions(design.moving, TURN * turns)
     bars, toward = design.linkage, 1.0 if design.linkage is None else 1j
     center = track(-toward * design.mesh.center_distance, fraction)
-    at = None if bars is None else Joints.of(design.moving, TURN * turns)
+    marks = (Mark(here.at("crank"), pivot=True),) if bars is None else here.marks
     return Scene(
-        parts=(*_gears(design, turns, center, toward), *([] if at is None else [at.chain()])),
-        marks=(Mark(center, pivot=True), *((Mark(axis, pivot=True),) if at is None else at.marks())),
+        parts=(*_gears(design, turns, center, toward), *([] if bars is None else [here.chain])),
+        marks=(Mark(center, pivot=True), *marks),
         chart=_chart(design, cycles * design.cycle_turns, turns, moved),
         readouts=(Readout("input turns", "", turns), Readout("driven gear", "°", np.degrees(moved))),
     )
@@ -74,7 +78,7 @@ def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: com
     axis, loop_turns = center + toward * design.mesh.center_distance, design.mutilated.cycles_to_repeat
     return [
         _wheel(design, center, line - TURN * turns / design.reduction),
-        *gear(design.mesh, 1, axis, place, loop_turns * design.driven_turn, ORANGE, "2", "driven gear"),
+        *gear(design.mesh, 1, axis, place, loop_turns * design.driven_turn, style.ORANGE, "2", "driven gear"),
     ]
 
 
@@ -84,7 +88,7 @@ def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
 
 def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, now: Reals) -> Chart:
     x = whole * loop(361)
-    curve = Curve("driven", ORANGE, np.degrees(_driven(design, x)), np.degrees(now))
+    curve = Curve("driven", style.ORANGE, np.degrees(_driven(design, x)), np.degrees(now))
     cycle, count = design.cycle_turns, design.mutilated.cycles_to_repeat
     dwells = tuple(Band("dwell", k * cycle + design.motion_turns, (k + 1) * cycle) for k in range(count))
     return Chart("input turns", "driven gear [deg]", x, turns, (curve,), dwells)
@@ -118,8 +122,8 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         place=center,
         turn=turn,
         repeats=gears.groups,
-        color=BLUE,
-        fill=pale(BLUE),
+        color=style.BLUE,
+        fill=pale(style.BLUE),
         label="1",
         name=f"wheel, {gears.groups} × {design.group_teeth} of {design.full_teeth} teeth",
         pitch=mesh.working_radius[0],
@@ -140,10 +144,12 @@ def draw(command: str, design: MutilatedGearDwell) -> Figure:
     """The sheet of a command on a mutilated-gear dwell."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         return mesh_figure(title, [Mesh(design.mesh, "", ("1, wheel", "2, driven"), mesh_scene(design))])
-    charts = [_angles, _speeds, *([] if design.linkage is None else [_transmission])]
+    charts: list[linkage.Panel] = [
+        partial(_both, title="Angles", ylabel="angle [deg]", column="angle", line="default"),
+        partial(_both, title="Speeds, per input speed", ylabel="speed ratio", column="speed_ratio", line="steps-post"),
+        *([] if design.linkage is None else [_transmission]),
+    ]
     return linkage.sheet(title, design, mechanism, _WORDS, charts, columns=1)
 
 
@@ -151,43 +157,32 @@ def mechanism(axes: Axes, design: MutilatedGearDwell) -> None:
     """The wheel and the driven gear at the start of a motion; lightly, the four-bar in the middle of it."""
     panels.heading(axes, "At the start of a motion")
     cycles, share = design.mutilated.cycles_to_repeat, 0.5 * design.motion_turns / design.cycle_turns
-    scene = build(design, np.array([0.0, share / cycles]))
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
+    scene = scene_axes.turned(axes, design, build, 0.0, share / cycles)
     if design.linkage is not None:
         scene_axes.lightly(axes, scene, 1, name="four-bar in the middle of the motion")
 
 
-def _turns(axes: Axes, design: MutilatedGearDwell, title: str, ylabel: str) -> list[float]:
-    """A chart over input turns with the dwell shaded; gives the turns of the table's rows."""
+def _both(axes: Axes, design: MutilatedGearDwell, title: str, ylabel: str, column: str, line: str) -> None:
+    """Driven gear and rocker over input turns, the dwell shaded.
+
+    line : how the values of the driven gear are joined, as matplotlib calls it
+    """
+    table = design.table("motion")
+    turns = table["input_angle"] / 360.0
     linkage.chart(axes, title, ylabel, "input turns", turn=False)
     axes.axvspan(design.motion_turns, design.cycle_turns, **linkage.DWELL, label="dwell")
     axes.set_xlim(0.0, design.cycle_turns)
-    return [angle / 360.0 for angle in linkage.columns(design, "motion")["input_angle"]]
-
-
-def _angles(axes: Axes, design: MutilatedGearDwell) -> None:
-    turns = _turns(axes, design, "Angles", "angle [deg]")
-    data = linkage.columns(design, "motion")
-    axes.plot(turns, data["driven_angle"], color=style.ORANGE, linewidth=1.6, label="driven gear")
-    if "rocker_angle" in data:
-        axes.plot(turns, data["rocker_angle"], color=style.BLUE, linewidth=1.6, label="rocker")
-    panels.legend_above(axes, 3)
-
-
-def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
-    turns = _turns(axes, design, "Speeds, per input speed", "speed ratio")
-    data = linkage.columns(design, "motion")
-    axes.step(turns, data["driven_speed_ratio"], where="post", color=style.ORANGE, linewidth=1.6, label="driven gear")
-    if "rocker_speed_ratio" in data:
-        axes.plot(turns, data["rocker_speed_ratio"], color=style.BLUE, linewidth=1.6, label="rocker")
-    time_axes.in_time(axes, design.angular_speed, 1, "rad")
+    look: dict[str, Any] = {"linewidth": 1.6, "drawstyle": line}
+    axes.plot(turns, table[f"driven_{column}"], color=style.ORANGE, label="driven gear", **look)
+    if f"rocker_{column}" in table.columns:
+        axes.plot(turns, table[f"rocker_{column}"], color=style.BLUE, linewidth=1.6, label="rocker")
+    if column != "angle":
+        time_axes.in_time(axes, design.angular_speed, 1, "rad")
     panels.legend_above(axes, 3)
 
 
 def _transmission(axes: Axes, design: MutilatedGearDwell) -> None:
     """The four-bar over its own turn, which it passes in parts, one a cycle."""
     assert design.linkage is not None, "as for the chart"
-    degrees = np.arange(721) * 0.5
-    states = [solve(design.linkage, math.radians(x), 0) for x in degrees.tolist()]
-    angles = np.array([math.degrees(acute(state.transmission_angle)) for state in states])
-    linkage.transmission(axes, design, degrees, angles, "crank angle of the four-bar [deg]")
+    over = "crank angle of the four-bar [deg]"
+    linkage.transmission(axes, design, motion=four_bar_motion(design.linkage), xlabel=over)

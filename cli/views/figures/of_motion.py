@@ -94,7 +94,7 @@ def _curve(axes: Axes, motion: Motion, order: int, *, narrow: bool) -> None:
     turning, angle = given.unit == "rad", output.course.unit == "rad"
     q = np.linspace(given.start, given.end, 721)
     rate = output.course.rates(motion, q, order)[order]
-    unit = ("deg" if angle else output.course.unit) if order == 0 else _per_input(output.course.unit, order, turning)
+    unit = panels.per_input(output.course.unit, order, given.unit)
     x_label = f"{given.column.replace('_', ' ')} [{'deg' if turning else 'mm'}]" if order == 2 else ""
     panels.turn_panel(axes, f"{_LABELS[order]} [{unit}]", x_label)
     if given.turns != 1:
@@ -104,12 +104,3 @@ def _curve(axes: Axes, motion: Motion, order: int, *, narrow: bool) -> None:
     axes.set_xlim(*(math.degrees(end) if turning else end for end in (given.start, given.end)))
     axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
               color=_COLORS[order], linewidth=1.6)  # fmt: skip
-
-
-def _per_input(unit: str, order: int, turning: bool) -> str:
-    power = "" if order == 1 else "²"
-    if not turning:
-        return f"{unit}/mm{power}"
-    return (
-        "1" if unit == "rad" and order == 1 else f"{'1' if unit == 'rad' else unit}/rad{'' if unit == 'rad' else power}"
-    )

@@ -28,10 +28,10 @@ def draw(design: RegisterDesign) -> Figure:
     panels_of = (_stretch, _along, _cycle, _sources) if along else (_cycle, _sources)
     bars = max(0.3, _BAR * len(_signs(design)[0][1].rows))
     share = 0.3 * (len(panels_of) - 1) + bars + 0.1
-    made = panels.page(f"{design.spec.name}: register", share, large=share > 1.5)
-    grid = made.add_gridspec(len(panels_of), 1, height_ratios=[*[0.3] * (len(panels_of) - 1), bars])
-    for place, draw_one in enumerate(panels_of):
-        draw_one(made.add_subplot(grid[place]), design)
+    heights = [*[0.3] * (len(panels_of) - 1), bars]
+    made, rows = panels.stack(f"{design.spec.name}: register", heights, share, large=share > 1.5)
+    for axes, draw_one in zip(rows, panels_of, strict=True):
+        draw_one(axes, design)
     return made
 
 
@@ -46,8 +46,7 @@ def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
 def _stretch(axes: Axes, design: RegisterDesign) -> None:
     """Band and worst case relative to the start of the stretch."""
     degrees = np.degrees(design.input_angles)
-    style.curves(axes, "input angle [deg]", "error [mm]")
-    panels.small_ticks(axes)
+    panels.curves(axes, "input angle [deg]", "error [mm]")
     for (name, found), line in zip(_signs(design), _LINES, strict=False):
         axes.plot(degrees, found.band, color=style.BLUE, linestyle=line, linewidth=1.6, label=f"99.73 %{name}")
         axes.plot(degrees, found.worst, color=style.ORANGE, linestyle=line, linewidth=1.1, label=f"worst{name}")
@@ -58,16 +57,13 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
     shown = (place + 360.0 * math.ceil((degrees[0] - place) / 360.0) for place in places)
     linkage.standstills(axes, [math.radians(place) for place in shown if place <= degrees[-1]], "torque turns")
     axes.set_xlim(degrees[0], degrees[-1])
-    _in_time(axes, design)
-    _from_zero(axes)
-    panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 4)
+    _finish(axes, design, f"Over the {design.place}, relative to its start", 4)
 
 
 def _along(axes: Axes, design: RegisterDesign) -> None:
     """The maximum sources along the stretch, each at its limit, relative to its start."""
     degrees = np.degrees(design.input_angles)
-    style.curves(axes, "input angle [deg]", "error [mm]")
-    panels.small_ticks(axes)
+    panels.curves(axes, "input angle [deg]", "error [mm]")
     both = [design.contributions(design.input_angles, sign) for sign in (1, -1)][: len(_signs(design))]
     costs = [{one.source: one.limit * at_worst(one, 0) for one in found} for found in both]
     order = sorted(costs[0], key=lambda name: -max(float(cost[name].max()) for cost in costs))
@@ -75,11 +71,9 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
         for cost, line in zip(costs, _LINES, strict=False):
             axes.plot(degrees, cost[name], color=color, linestyle=line, label=name if line == "-" else None)
     axes.set_xlim(degrees[0], degrees[-1])
-    _in_time(axes, design)
-    _from_zero(axes)
     shown = f", the {len(_COLORS)} largest of {len(order)}" if len(order) > len(_COLORS) else ""
     dashed = "; dashed: torque −1" if len(costs) > 1 else ""
-    panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
+    _finish(axes, design, f"By source, each at its limit{shown}{dashed}", 3)
 
 
 _SHORTEST_TURN = 350.0
@@ -90,8 +84,7 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
     """Absolute error over the whole cycle."""
     table = design.table_cycle()
     signs, degrees, band = (np.asarray(table[name]) for name in ("torque_sign", "input_angle", "band"))
-    style.curves(axes, "input angle [deg]", "error [mm]")
-    panels.small_ticks(axes)
+    panels.curves(axes, "input angle [deg]", "error [mm]")
     names = _signs(design)
     for sign, (name, _), line in zip((1, -1), names, _LINES, strict=False):
         here = signs == sign
@@ -100,26 +93,20 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
         style.degrees(axes, float(degrees[0]), float(degrees[-1]))
     else:
         style.full_turn(axes)
-    _in_time(axes, design)
-    _from_zero(axes)
     known = "" if np.isfinite(band).all() else "; without cam nothing is known outside the zone"
-    panels.legend_under_heading(axes, f"Over the cycle, absolute{known}", 4)
+    _finish(axes, design, f"Over the cycle, absolute{known}", 4)
 
 
-def _from_zero(axes: Axes) -> None:
-    """The y axis from 0 to a little above what is drawn."""
-    axes.set_ylim(0.0, 1.05 * axes.dataLim.y1 or None)
-
-
-def _in_time(axes: Axes, design: Any) -> None:
-    """The input angle in time, at the speed of the design that is budgeted."""
+def _finish(axes: Axes, design: Any, title: str, columns: int) -> None:
+    """The input angle in time, at the speed of the design that is budgeted; errors from 0 to a little above all."""
     time_axes.over_input(axes, time_axes.turn_time(design.design))
+    axes.set_ylim(0.0, 1.05 * axes.dataLim.y1 or None)
+    panels.legend_under_heading(axes, title, columns)
 
 
 def _sources(axes: Axes, design: RegisterDesign) -> None:
     """Three sigma of every source, and its mean, where the whole is greatest."""
-    style.curves(axes, "3 sigma and mean where the whole is largest [mm]", "")
-    panels.small_ticks(axes)
+    panels.curves(axes, "3 sigma and mean where the whole is largest [mm]", "")
     found = _signs(design)
     order = sorted(found[0][1].rows, key=_width)
     height = 0.8 / len(found)

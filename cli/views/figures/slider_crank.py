@@ -11,31 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.linkages import crank_readout, over_crank
-from gearlink.cli.views.scenes.scene import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    TURN,
-    Body,
-    Chain,
-    Curve,
-    Line,
-    Part,
-    Points,
-    Readout,
-    Reals,
-    Scene,
-    block,
-    circle,
-    fixed_circle,
-    letters,
-    loop,
-    pale,
-)
+from gearlink.cli.views.scenes.of_motion import Positions, Seen
+from gearlink.cli.views.scenes.scene import Line, Part, Points, Reals, Scene, block, circle, fixed_circle
 from gearlink.core.machines.slider_crank.mechanism import DEPTH
-from gearlink.core.parts.linkages.slider_crank import slider_sweep
+from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,29 +23,25 @@ if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
 
 
-def _racks(design: SliderCrankDesign, psi: Reals) -> list[Part]:
-    """Pinion and both racks, as their pitch circles and lines with a back."""
+def _racks(design: SliderCrankDesign, here: Positions, whole: Reals) -> list[Part]:
+    """Pinion and both racks, as their pitch circles and lines with a back.
+
+    whole : (N,) array [mm] - depths of the slider over the turn
+    """
     drive = design.rack_drive
     if drive is None:
         return []
-    links, (fixed, moving) = design.moving.at(psi, 0).links, drive.radii
-    pinion, rack = links["pinion"], links["rack"]
-    whole = DEPTH.rates(design.moving, TURN * loop(361), 0)[0]
-    still, module = np.zeros_like(psi), drive.given.module
-    found: list[Part] = []
-    for radius in sorted({fixed, moving}, reverse=True):
-        outline = np.concatenate([[0.0], circle(radius)])
-        found.append(Body(outline=outline, place=pinion.origin.value, turn=pinion.turn.value, color=ORANGE,
-                          fill=pale(ORANGE, 0.25), name="pinion"))  # fmt: skip
-    x, low, high = -design.slider_crank.offset + fixed, -whole.max() - moving, -whole.min() + moving
-    found.append(Body(outline=_bar(x, low, high, 3.0 * module), place=0.0 * pinion.origin.value, turn=still,
-                      color=GREY, fill=pale(GREY, 0.3), name="fixed rack"))  # fmt: skip
-    # the moving rack is touched beside the rod end, which it outruns
-    touched = (drive.stroke_ratio - 1.0) * whole
-    outline = _bar(0.0, touched.min() - moving, touched.max() + moving, -3.0 * module * drive.side)
-    found.append(Body(outline=outline, place=rack.origin.value, turn=still, color=GREEN, fill=pale(GREEN, 0.3),
-                      name="moving rack"))  # fmt: skip
-    return found
+    fixed, moving = drive.radii
+    discs = [
+        here.body("pinion", np.concatenate([[0.0], circle(radius)]), style.ORANGE, name="pinion")
+        for radius in sorted({fixed, moving}, reverse=True)
+    ]
+    x, low, high, back = -design.slider_crank.offset + fixed, -whole.max(), -whole.min(), 3.0 * drive.given.module
+    touched = (drive.stroke_ratio - 1.0) * whole  # the moving rack is touched beside the rod end, which it outruns
+    still = _bar(x, low - moving, high + moving, back)
+    run = _bar(0.0, touched.min() - moving, touched.max() + moving, -back * drive.side)
+    racks = ((FRAME, still, style.GREY, "fixed rack"), ("rack", run, style.GREEN, "moving rack"))
+    return [*discs, *(here.body(link, bar, color, 0.3, name=name) for link, bar, color, name in racks)]
 
 
 def _bar(x: float, low: float, high: float, back: float) -> Points:
@@ -76,31 +51,26 @@ def _bar(x: float, low: float, high: float, back: float) -> Points:
 
 def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
-    part, psi = design.slider_crank, TURN * fraction
+    part, here = design.slider_crank, Positions.of(design, fraction)
     crank, rod, offset = part.crank_length, part.rod, part.offset
-    depth = DEPTH.rates(design.moving, psi, 1)
-    whole = DEPTH.rates(design.moving, TURN * loop(721), 0)[0]
-    links = design.moving.at(psi, 1).links
-    d, e, f = (links[name].origin.value for name in ("crank", "rod", "slider"))
+    depth, rate = DEPTH.rates(here.motion, here.inputs, 1)
+    whole = DEPTH.rates(here.motion, np.linspace(0.0, _TURN, 721), 0)[0]
     size = min(0.2 * rod, max(1.5 * float(np.ptp(whole)), 0.05 * rod))  # beside a short stroke no block that hides it
     ways = np.array([whole.min() - 0.15 * rod, whole.max() + 0.15 * rod])
     dead = [-offset - 1j * place + 0.11 * rod * np.array([-1.0, 1.0]) for place in (whole.min(), whole.max())]
-    return Scene(
-        parts=(
+    return here.scene(
+        (
             Line(points=-offset - 1j * ways),
             *(Line(points=points, dashed=True) for points in dead),
             fixed_circle(0j, crank),
-            block(f, 0.8 * size, size, BLUE),
-            *_racks(design, psi),
-            Chain(joints=(d, e, f)),
+            block(here.at("slider"), 0.8 * size, size, style.BLUE),
+            *_racks(design, here, whole),
+            here.chain,
         ),
-        marks=letters("D", D=d, E=e, F=f),
-        chart=over_crank(psi, (Curve("slider", BLUE, whole[::4], depth[0]),), "depth of the slider [mm]"),
-        readouts=(
-            crank_readout(psi),
-            Readout("depth", " mm", depth[0]),
-            Readout("speed", " mm/rad", depth[1]),
-        ),
+        {"slider": Seen(DEPTH, style.BLUE, "mm")},
+        "depth of the slider [mm]",
+        over="crank angle",
+        values={"depth": (" mm", depth), "speed": (" mm/rad", rate)},
     )
 
 
@@ -116,21 +86,14 @@ def draw(command: str, design: SliderCrankDesign) -> Figure:
     mechanism(figure.add_subplot(grid[:, 0]), design)
     travel, velocity, transmission = (figure.add_subplot(grid[row, 1]) for row in range(3))
     motion(travel, velocity, design)
-    table = linkage.columns(design, "motion")
-    linkage.transmission(transmission, design, table["input_angle"], table["transmission_angle"])
+    linkage.transmission(transmission, design)
     time_axes.over_input(transmission, time_axes.turn_time(design))
     return figure
 
 
-def dead_centers(design: SliderCrankDesign) -> tuple[float, float]:
-    """Directions of the crank at the folded and at the stretched dead centre [rad], the second after the first."""
-    folded = 0.5 * math.pi - design.slider_crank.dead_center_folded
-    return folded, 1.5 * math.pi - design.slider_crank.dead_center_extended
-
-
 def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
     """Both dead centres and the position half-way, with stroke and offset."""
-    part, (folded, extended) = design.slider_crank, dead_centers(design)
+    part, (folded, extended) = design.slider_crank, (design.dead_center_folded_at, design.dead_center_extended_at)
     panels.drawing(axes, f"Crank {part.crank_length:.6g}, rod {part.rod:.6g}")
     scene = build(design, np.array([0.5 * (folded + extended), folded, extended]) / _TURN)
     ahead = build(design, np.array([0.5 * (folded + extended) / _TURN + scene_axes.AHEAD]))
@@ -153,19 +116,11 @@ def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
 
 def _crank_alone(axes: Axes, scene: Scene, ahead: Scene, crank: float) -> None:
     """A crank that is short beside its rod, magnified beside the rod."""
-    detail = axes.inset_axes((0.64, 0.38, 0.35, 0.24), zorder=9)
-    scene_axes.draw(detail, scene, ahead=ahead)
-    center = complex(scene.marks[0].point[0])
-    way = center + crank * np.exp(1j * np.linspace(0.0, _TURN, 121))
+    center, box = complex(scene.marks[0].point[0]), (0.64, 0.38, 0.35, 0.24)
+    detail = scene_axes.magnified(axes, box, scene, center, 1.7 * crank, "crank,\nmagnified [mm]", ahead)
+    way = center + circle(crank, 120)
     detail.plot(way.real, way.imag, color=style.GREY, linewidth=0.8, linestyle=style.DASHED)
-    detail.set_aspect("equal")
-    detail.set_xlim(center.real - 1.7 * crank, center.real + 1.7 * crank)
-    detail.set_ylim(center.imag - 1.7 * crank, center.imag + 1.7 * crank)
-    detail.set_title("crank,\nmagnified [mm]", loc="left", fontsize=7)
     detail.tick_params(labelsize=6, colors=style.GREY)
-    detail.set_yticks([])  # to scale: numbers beside it would stand on the rod
-    for text in detail.texts:
-        text.set_clip_on(True)
 
 
 def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: complex) -> None:
@@ -186,19 +141,20 @@ def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: compl
 
 def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     """Travel of the slider from its nearest place, velocity per crank speed, over the direction of the crank."""
-    part, crank = design.slider_crank, design.slider_crank.crank_length
-    folded, extended = (math.degrees(angle) % 360.0 for angle in dead_centers(design))
+    folded, extended = (
+        math.degrees(at) % 360.0 for at in (design.dead_center_folded_at, design.dead_center_extended_at)
+    )
     degrees = np.unique(np.append(np.arange(721) * 0.5, (folded, extended)))
-    depth, speed = slider_sweep(np.radians(degrees), crank, part.rod, part.offset, 1)
-    panels.turn_panel(travel, "travel of the\nslider [mm]")
-    panels.heading(travel, f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}")
+    depth, speed = DEPTH.rates(design.moving, np.radians(degrees), 1)
+    panels.turn_panel(
+        travel, "travel of the\nslider [mm]", title=f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}"
+    )
     travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel", label="slider")
     if design.rack_drive is not None:
         rack = design.rack_drive.stroke_ratio * (depth - depth.min())
         travel.plot(degrees, rack, color=style.GREEN, linewidth=1.7, label="rack")
         panels.legend_above(travel)
-    panels.turn_panel(velocity, "velocity per crank\nspeed [mm/rad]")
-    panels.heading(velocity, "Velocity")
+    panels.turn_panel(velocity, "velocity per crank\nspeed [mm/rad]", title="Velocity")
     velocity.plot(degrees, speed, color=style.RED, linewidth=1.7, gid="velocity")
     velocity.axhline(0.0, color=style.BLACK, linewidth=0.8)
     time_axes.in_time(velocity, getattr(design, "angular_speed", None), 1, "m", 1e-3)

@@ -10,12 +10,10 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
 from gearlink.cli.views.scenes import of_motion
+from gearlink.cli.views.scenes.of_motion import Positions
 from gearlink.cli.views.scenes.scene import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
     TURN,
+    WHITE,
     Body,
     Chain,
     Part,
@@ -23,8 +21,11 @@ from gearlink.cli.views.scenes.scene import (
     Reals,
     Scene,
     circle,
+    loop,
     pale,
+    wheel,
 )
+from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,30 +43,18 @@ _RIM = 2.5
 
 def build_geneva(design: GenevaDrive, fraction: Reals) -> Scene:
     """Positions over fractions of a revolution of the crank: wheel with its slots, locking disc, pins."""
-    scene = of_motion.build(design, fraction)
-    links = design.moving.at(of_motion.inputs(design.moving.input, fraction), 0).links
+    scene, here = of_motion.build(design, fraction), Positions.of(design, fraction)
     drive, pin = design.drive, design.spec.pin_radius
-    center, turn = links["wheel"].origin.value, links["wheel"].turn.value
     parts: list[Part] = []
-    fill = pale(ORANGE, 0.25)
+    wheel_look: dict[str, Any] = {"repeats": drive.slots, "width": 1.6, "name": "wheel"}
     if drive.sign < 0.0:
         rim = circle(drive.distance + drive.crank + _RIM * pin, 144)
-        parts.append(Body(outline=rim, place=center, turn=turn, color=ORANGE, fill=fill, repeats=0))
-        fill = "#FFFFFF"
-    parts.append(Body(outline=_slotted(design), place=center, turn=turn, color=ORANGE, fill=fill,
-                      repeats=drive.slots, width=1.6, name="wheel"))  # fmt: skip
-    crank, angle = links["crank"].origin.value, links["crank"].turn.value
+        parts.append(here.body("wheel", rim, style.ORANGE, repeats=0))
+        wheel_look["fill"] = WHITE
+    parts.append(here.body("wheel", _slotted(design), style.ORANGE, **wheel_look))
     if drive.pins * drive.half < math.pi:
-        parts.append(
-            Body(
-                outline=_traced(_outlines(design).driver()), place=crank, turn=angle, color=BLUE, fill=pale(BLUE, 0.25)
-            )
-        )
-    pins = [
-        Body(outline=circle(pin, 36), place=crank + drive.crank * np.exp(1j * (angle + k * TURN / drive.pins)),
-             turn=np.zeros_like(angle), color=GREEN, fill=pale(GREEN, 0.4), repeats=0)
-        for k in range(drive.pins)
-    ]  # fmt: skip
+        parts.append(here.body("crank", _traced(_outlines(design).driver()), style.BLUE))
+    pins = _round(here.at("crank"), here.turn("crank"), drive.crank, pin, drive.pins, style.GREEN)
     return replace(scene, parts=(*parts, *scene.parts, *pins))
 
 
@@ -90,32 +79,25 @@ def _slotted(design: GenevaDrive) -> Points:
 
 def build_cycloidal(design: CycloidalReducer, fraction: Reals) -> Scene:
     """Positions over the turns of the eccentric that bring the output home: ring pins, discs, output pins."""
-    scene = of_motion.build(design, fraction)
-    links = design.moving.at(of_motion.inputs(design.moving.input, fraction), 0).links
-    spec, disc = design.spec, design.disc
-    still, axis = np.zeros_like(fraction), links["eccentric"].origin.value
-    output = links["output"].turn.value
-    held = spec.fixed == "output"
-    ring, flange = (output, still) if held else (still, output)
-    parts: list[Part] = []
+    scene, here = of_motion.build(design, fraction), Positions.of(design, fraction)
+    spec, disc, axis = design.spec, design.disc, here.at("eccentric")
+    ring, flange = ("output", FRAME) if spec.fixed == "output" else (FRAME, "output")
+    given, hole, parts = spec.output_pins, design.output_hole_radius, list[Part]()
     outline = disc.ground(*design.changes).profile(np.linspace(0.0, TURN, 48 * disc.pins + 1))[0]
-    for k, color in zip(range(spec.discs, 0, -1), (ORANGE, BLUE, GREEN)[: spec.discs][::-1], strict=True):
-        link = links[f"disc_{k}"]
-        parts.append(Body(outline=outline, place=link.origin.value, turn=link.turn.value, color=color,
-                          fill=pale(color, 0.25), name=f"disc {k}"))  # fmt: skip
-        hole = design.output_hole_radius
-        if hole is not None and spec.output_pins is not None and k == 1:
-            parts += _round(link.origin.value, flange, spec.output_pins.circle_radius, hole,
-                            spec.output_pins.count, color)  # fmt: skip
-    parts += _round(axis, ring, disc.circle, disc.pin, disc.pins, GREY)
-    if (given := spec.output_pins) is not None:
-        parts += _round(axis, flange, given.circle_radius, given.radius, given.count, GREEN)
+    colors = (style.ORANGE, style.BLUE, style.GREEN)[: spec.discs]
+    for k, color in zip(range(spec.discs, 0, -1), reversed(colors), strict=True):
+        parts.append(here.body(f"disc_{k}", outline, color, name=f"disc {k}"))
+        if hole is not None and given is not None and k == 1:
+            parts += _round(here.at("disc_1"), here.turn(flange), given.circle_radius, hole, given.count, color)
+    parts += _round(axis, here.turn(ring), disc.circle, disc.pin, disc.pins, style.GREY)
+    if given is not None:
+        parts += _round(axis, here.turn(flange), given.circle_radius, given.radius, given.count, style.GREEN)
     return replace(scene, parts=(*parts, *(each for each in scene.parts if isinstance(each, Chain))))
 
 
 def _round(center: Points, turn: Reals, circle_radius: float, radius: float, count: int, color: str) -> list[Part]:
     """Equal circles on a circle that turns."""
-    around = circle(radius, 24)
+    around = circle(radius, 36)
     return [
         Body(outline=around, place=center + circle_radius * np.exp(1j * (turn + TURN * k / count)),
              turn=np.zeros_like(turn), color=color, fill=pale(color, 0.4), repeats=0)
@@ -125,17 +107,11 @@ def _round(center: Points, turn: Reals, circle_radius: float, radius: float, cou
 
 def build_grooved(design: Grooved, fraction: Reals) -> Scene:
     """Positions over fractions of a revolution of the input: the links, the roller, and both walls of its groove."""
-    scene = of_motion.build(design, fraction)
-    theta, groove = TURN * fraction, design.groove
-    still, axis = np.zeros_like(fraction), np.zeros(fraction.shape, dtype=np.complex128)
-    whole = np.linspace(0.0, TURN, 721)
-    inner, outer = groove.walls(whole)
-    walls = [
-        Body(outline=outer, place=axis, turn=still, color=GREY, fill=pale(GREY, 0.18), name="groove"),
-        Body(outline=inner, place=axis, turn=still, color=GREY, fill="#FFFFFF"),
-    ]
-    roller = Body(outline=circle(groove.roller_radius, 36), place=groove.path(theta).place, turn=still, color=GREEN,
-                  fill=pale(GREEN, 0.4), repeats=0, name="roller")  # fmt: skip
+    scene, here, groove = of_motion.build(design, fraction), Positions.of(design, fraction), design.groove
+    inner, outer = groove.walls(np.linspace(0.0, TURN, 721))
+    walls = here.body(FRAME, outer, style.GREY, 0.18, name="groove"), here.body(FRAME, inner, style.GREY, fill=WHITE)
+    look = {"color": style.GREEN, "fill": pale(style.GREEN, 0.4), "name": "roller"}
+    roller = wheel(groove.path(here.inputs).place, groove.roller_radius, fraction, **look)
     kept = tuple(each for each in scene.parts if getattr(each, "name", "") != "groove" and not _is_block(each))
     return replace(scene, parts=(*walls, *kept, roller))
 
@@ -147,57 +123,43 @@ def _is_block(part: Part) -> bool:
 
 def build_linked_cams(design: LinkedCams, fraction: Reals) -> Scene:
     """Positions over fractions of a revolution: both cams, their rollers, and the table on its path."""
-    scene = of_motion.build(design, fraction)
-    theta = TURN * fraction
-    links = design.moving.at(theta, 0).links
-    axis, still = links["cam"].origin.value, np.zeros_like(fraction)
-    whole = np.linspace(0.0, TURN, 721)
+    scene, here = of_motion.build(design, fraction), Positions.of(design, fraction)
     parts: list[Part] = []
-    for cam, color, name, way in zip(design.cams, (BLUE, ORANGE), ("x", "y"), (1.0, 1j), strict=True):
-        outline = cam.points(whole)[1]
-        parts.append(
-            Body(outline=outline, place=axis, turn=theta, color=color, fill=pale(color, 0.2), name=f"{name} cam")
-        )
-        at = links[f"slide_{name}"].origin.value
-        parts.append(Body(outline=circle(cam.roller_radius, 36), place=at, turn=still, color=color,
-                          fill=pale(color, 0.5), repeats=0))  # fmt: skip
+    for cam, color, name, way in zip(design.cams, (style.BLUE, style.ORANGE), ("x", "y"), (1.0, 1j), strict=True):
+        parts.append(here.body("cam", cam.points(np.linspace(0.0, TURN, 721))[1], color, 0.2, name=f"{name} cam"))
+        at = here.at(f"slide_{name}")
+        parts.append(wheel(at, cam.roller_radius, fraction, color=color, fill=pale(color, 0.5)))
         parts.append(Chain(joints=(at, at + 4.0 * way * cam.roller_radius), color=color, marked=False))
-    path = design.moving.at(whole, 0).links["table"].origin.value
-    parts.append(Body(outline=path, place=np.zeros_like(axis), turn=still, color=GREEN, name="path", width=1.6))
-    parts.append(Body(outline=circle(0.5 * design.cams[0].roller_radius, 24), place=links["table"].origin.value,
-                      turn=still, color=GREEN, fill=pale(GREEN, 0.5), repeats=0, name="table"))  # fmt: skip
+    path, look = Positions.of(design, loop(721)).at("table"), {"color": style.GREEN, "fill": pale(style.GREEN, 0.5)}
+    parts.append(here.body(FRAME, path, style.GREEN, 0.0, name="path", width=1.6))
+    parts.append(wheel(here.at("table"), 0.5 * design.cams[0].roller_radius, fraction, **look, name="table"))
     return replace(scene, parts=tuple(parts))
 
 
 def cycloidal(command: str, design: CycloidalReducer) -> Figure:
     """The reducer with its eccentric at 0, the levers, forces and gaps of its pins, and the profile's curvature."""
-    made = panels.page(f"{design.spec.name}: {command}")
-    grid = made.add_gridspec(4, 1, height_ratios=(2.4, 1.0, 1.0, 1.0))
-    drawing = made.add_subplot(grid[0])
+    made, (drawing, levers, forces, axes) = panels.stack(f"{design.spec.name}: {command}", (2.4, 1.0, 1.0, 1.0))
     panels.drawing(drawing, "Discs and pins, eccentric at 0")
     scene_axes.draw(drawing, build_cycloidal(design, np.array([0.0])))
     table, disc = design.table("pins"), design.disc
     u = np.linspace(0.0, 360.0, 721)
-    levers = np.abs(disc.lever(np.radians(u)))
-    _pins(made.add_subplot(grid[1]), "Levers of the pins about the disc's centre", "lever [mm]", u, levers,
-          table["angle"], table["lever"])  # fmt: skip
+    lever = np.abs(disc.lever(np.radians(u)))
+    _pins(levers, "Levers of the pins about the disc's centre", "lever [mm]", u, lever, table["angle"], table["lever"])
     if "force" in table.columns:
-        _pins(made.add_subplot(grid[2]), "Forces of the ring pins, of the disc that carries most", "force [N]", u, None,
-              table["angle"], table["force"])  # fmt: skip
+        title = "Forces of the ring pins, of the disc that carries most"
+        _pins(forces, title, "force [N]", u, None, table["angle"], table["force"])
     else:
         gaps = 1000.0 * disc.gap(np.radians(u), *design.changes)
-        _pins(made.add_subplot(grid[2]), "Gaps at the pins", "gap [µm]", u, gaps, table["angle"], 1000.0 * table["gap"])
-    axes = made.add_subplot(grid[3])
-    panels.turn_panel(axes, "curvature [1/mm]", "angle from the eccentricity to the pin [deg]")
-    panels.heading(axes, "Curvature of the pitch curve, and that of a pin")
+        _pins(forces, "Gaps at the pins", "gap [µm]", u, gaps, table["angle"], 1000.0 * table["gap"])
+    title = "Curvature of the pitch curve, and that of a pin"
+    panels.turn_panel(axes, "curvature [1/mm]", "angle from the eccentricity to the pin [deg]", title)
     axes.plot(u, disc.curvature(np.radians(u)), color=style.GREEN, linewidth=1.5)
-    axes.axhline(1.0 / disc.pin, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)))
+    axes.axhline(1.0 / disc.pin, color=style.BLACK, linewidth=0.9, linestyle=style.DASHED)
     return made
 
 
 def _pins(axes: Axes, title: str, label: str, u: Any, curve: Any, at: Any, values: Any) -> None:
-    panels.turn_panel(axes, label)
-    panels.heading(axes, title)
+    panels.turn_panel(axes, label, title=title)
     if curve is not None:
         axes.plot(u, curve, color=style.BLUE, linewidth=1.2)
     axes.vlines(at, 0.0, values, color=style.BLUE, linewidth=1.0)
@@ -206,12 +168,9 @@ def _pins(axes: Axes, title: str, label: str, u: Any, curve: Any, at: Any, value
 
 def grooved(command: str, design: Grooved) -> Figure:
     """The drive at a few degrees, output and speed over the input, pressure angle and curvature in the groove."""
-    made = panels.page(f"{design.spec.name}: {command}")
-    grid = made.add_gridspec(5, 1, height_ratios=(2.6, 1.0, 1.0, 1.0, 1.0))
-    drawing = made.add_subplot(grid[0])
-    at = np.array([1.0 / 12.0])
+    made, (drawing, *rows) = panels.stack(f"{design.spec.name}: {command}", (2.6, 1.0, 1.0, 1.0, 1.0))
     panels.drawing(drawing, "Mechanism at input angle 30°, and the groove")
-    scene_axes.draw(drawing, build_grooved(design, at), ahead=build_grooved(design, at + scene_axes.AHEAD))
+    scene_axes.turned(drawing, design, build_grooved, 1.0 / 12.0)
     degrees = np.linspace(0.0, 360.0, 721)
     theta = np.radians(degrees)
     output, speed, _ = design.output_motion.evaluate(theta, 2)
@@ -220,39 +179,29 @@ def grooved(command: str, design: Grooved) -> Figure:
         ("output [deg]", np.degrees(output), style.BLUE, "Output"),
         ("speed ratio [1]", speed, style.GREEN, "Speed of the output over the input's"),
         ("pressure\nangle [deg]", np.degrees(groove.pressure_angle(theta)), style.RED, "Pressure angle in the groove"),
-        (
-            "curvature [1/mm]",
-            groove.curvature(theta),
-            style.PURPLE,
-            "Curvature of path and roller",
-        ),
+        ("curvature [1/mm]", groove.curvature(theta), style.PURPLE, "Curvature of path and roller"),
     )
-    for row, (label, values, color, title) in enumerate(shown, 1):
-        axes = made.add_subplot(grid[row])
-        panels.turn_panel(axes, label, "input angle [deg]" if row == len(shown) else "")
-        panels.heading(axes, title)
+    for row, (axes, (label, values, color, title)) in enumerate(zip(rows, shown, strict=True), 1):
+        panels.turn_panel(axes, label, "input angle [deg]" if row == len(shown) else "", title=title)
         axes.plot(degrees, values, color=color, linewidth=1.5)
         lines = {3: (limit, -limit), 4: (1.0 / groove.roller_radius, -1.0 / groove.roller_radius)}.get(row, ())
         for line in lines:
-            axes.axhline(line, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)))
+            axes.axhline(line, color=style.BLACK, linewidth=0.9, linestyle=style.DASHED)
     return made
 
 
 def linked_cams(command: str, design: LinkedCams) -> Figure:
     """Cams, rollers and path, the lifts, and the pressure angles of both cams."""
-    made = panels.page(f"{design.spec.name}: {command}")
-    grid = made.add_gridspec(4, 1, height_ratios=(2.6, 1.0, 1.2, 1.2))
-    drawing = made.add_subplot(grid[0])
+    heights = (2.6, 1.0, 1.2, 1.2)
+    made, (drawing, axes, pressure, bends) = panels.stack(f"{design.spec.name}: {command}", heights)
     panels.drawing(drawing, "Cams and path at input angle 30°")
     scene_axes.draw(drawing, build_linked_cams(design, np.array([1.0 / 12.0])))
     degrees = np.linspace(0.0, 360.0, 721)
-    axes = made.add_subplot(grid[1])
-    panels.turn_panel(axes, "position [mm]")
-    panels.heading(axes, "Coordinates of the path")
+    panels.turn_panel(axes, "position [mm]", title="Coordinates of the path")
     for axis, (name, color) in enumerate((("x", style.BLUE), ("y", style.ORANGE))):
         values = design.coordinate(axis, np.radians(degrees), 0)[0]
         axes.plot(degrees, values, color=color, linewidth=1.5, label=name)
     panels.legend_above(axes)
-    panels.pressure_angles(made.add_subplot(grid[2]), design.cams, design.spec.limits.pressure_angle, "")
-    panels.curvatures(made.add_subplot(grid[3]), design.cams, "input angle [deg]")
+    panels.pressure_angles(pressure, design.cams, design.spec.limits.pressure_angle, "")
+    panels.curvatures(bends, design.cams, "input angle [deg]")
     return made

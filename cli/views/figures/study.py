@@ -74,10 +74,8 @@ def row_names(study: Exploration) -> dict[str, str]:
 def _empty(study: Exploration) -> Figure:
     """That there is nothing to draw."""
     made = panels.page(f"{study.spec.name}: no kept designs", 0.2)
-    axes = made.add_subplot()
-    axes.axis("off")
     words = f"nothing to draw: none of {amount(study.designs, 'design', spec=',')} satisfies {study.problem.asked}"
-    axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=9, transform=axes.transAxes)
+    panels.message(made.add_subplot(), words, 9)
     return made
 
 

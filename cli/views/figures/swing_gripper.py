@@ -5,43 +5,33 @@ The scene is one revolution of the cylinder shaft, a sheet.
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.cams import disc_cam
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.scenes.of_motion import Positions, Seen
 from gearlink.cli.views.scenes.scene import (
-    BLACK,
-    BLUE,
-    GREY,
-    ORANGE,
     PHASE_TINTS,
-    RED,
     TURN,
-    Band,
     Body,
     Chain,
-    Chart,
-    Curve,
     Line,
     Mark,
     Part,
-    Points,
-    Readout,
     Reals,
     Scene,
     bands,
     circle,
     letters,
-    loop,
     pale,
     track,
     wheel,
 )
-from gearlink.core.machines.swing_gripper.law import PHASES
 from gearlink.core.machines.swing_gripper.mechanism import without_cams
 
 if TYPE_CHECKING:
@@ -51,50 +41,37 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.design import SwingGripper
 
 
-_CAM_COLORS = (BLUE, RED)
+_CAM_COLORS = (style.BLUE, style.RED)
 
 
 def build(design: SwingGripper, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
-    degrees = 360.0 * fraction
-    at = _positions(design, degrees)
-    a, e = at.a, at.e
-    path = _positions(design, np.linspace(0.0, design.law.starts[3], 121)).f
-    arms = at.d - at.e
-    turn, plate = np.unwrap(np.angle(arms)), np.array([0.0, 1.0, (at.f[0] - e[0]) / arms[0], 0.0]) * abs(arms[0])
-    parts: list[Part] = [
-        Line(points=path, color=ORANGE, width=2.0, name="path of the sheet's edge"),
-        *_drum(design, fraction),
-        *_cam_bodies(design, fraction),
-        Body(outline=plate, place=e, turn=turn, color=BLACK, fill=pale(BLACK, 0.12), width=0.5),
-        Chain(joints=(a, at.c, at.d, e), color=BLUE),
-        Chain(joints=(at.d, e, at.f)),
-    ]
-    return Scene(
-        parts=tuple(parts),
-        marks=(
-            *letters("AE", A=a, C=at.c, D=at.d, E=e, F=at.f),
-            Mark(track(drum_center(design), fraction), pivot=True),
+    motion = without_cams(design)
+    here, swing = Positions(motion, TURN * fraction), motion.outputs[0]
+    path = Positions(motion, np.radians(np.linspace(0.0, design.law.starts[3], 121))).at("output", "F")
+    (a, c, d, e), f = (mark.point for mark in here.marks), here.at("output", "F")
+    arm = here.now.links["output"].points
+    plate = np.array([0.0, arm["D"], arm["F"], 0.0])
+    value, rate = swing.course.rates(motion, here.inputs, 1)
+    return here.scene(
+        (
+            Line(points=path, color=style.ORANGE, width=2.0, name="path of the sheet's edge"),
+            *_drum(design, fraction),
+            *_cam_bodies(design, here),
+            here.body("output", plate, style.BLACK, 0.12, width=0.5),
+            Chain(joints=(a, c, d, e), color=style.BLUE),
+            Chain(joints=(d, e, f)),
         ),
-        chart=_chart(design, degrees),
-        readouts=_readouts(design, degrees),
+        {"gripper": Seen(swing.course, style.BLUE)},
+        "swing of the gripper [deg]",
+        over="cylinder angle",
+        marked=bands((phase.name, phase.start, phase.end, PHASE_TINTS[phase.name]) for phase in phases(design)),
+        marks=(*letters("AE", A=a, C=c, D=d, E=e, F=f), Mark(track(drum_center(design), fraction), pivot=True)),
+        values={
+            "swing": ("°", np.degrees(value)),
+            "speed of the tip": (" mm/s", rate * design.shaft_speed * design.spec.arm.length),
+        },
     )
-
-
-class _Positions(NamedTuple):
-    """Joints of linkage and arm [mm]."""
-
-    a: Points
-    c: Points
-    d: Points
-    e: Points
-    f: Points
-
-
-def _positions(design: SwingGripper, degrees: Reals) -> _Positions:
-    links = without_cams(design).at(np.radians(degrees), 0).links
-    pins = (("input", "A"), ("input", "C"), ("output", "D"), ("output", "E"), ("output", "F"))
-    return _Positions(*(links[link].at(pin).value for link, pin in pins))
 
 
 def drum_center(design: SwingGripper) -> complex:
@@ -107,70 +84,44 @@ def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
     """The drum that takes the sheet over, with its grippers where the tip meets them at the handover."""
     spec = design.spec
     center = drum_center(design)
-    meeting = complex(_positions(design, np.array([design.motion.handover])).f[0])
+    handover = Positions(without_cams(design), np.radians([design.motion.handover]))
+    meeting = complex(handover.at("output", "F")[0])
     radius = spec.cylinder.radius
     way = (meeting - center) / abs(meeting - center)
     turn = -spec.swing_sense * (TURN * fraction - math.radians(design.motion.handover))
     pad = radius * way * np.array([0.86, 1.0])
-    shared = {"place": track(center, fraction), "turn": turn, "color": GREY}
+    shared = {"place": track(center, fraction), "turn": turn, "color": style.GREY}
     return [
         Body(
             outline=circle(radius, 144),
             repeats=0,
-            fill=pale(GREY, 0.1),
+            fill=pale(style.GREY, 0.1),
             label="cylinder",
             name=f"impression cylinder, radius {radius:g} mm",
             **shared,  # type: ignore[arg-type]
         ),
-        Body(outline=pad, width=5.0, **{**shared, "color": RED}),  # type: ignore[arg-type]
+        Body(outline=pad, width=5.0, **{**shared, "color": style.RED}),  # type: ignore[arg-type]
     ]
 
 
-def _cam_bodies(design: SwingGripper, fraction: Reals) -> list[Part]:
+def _cam_bodies(design: SwingGripper, here: Positions) -> list[Part]:
     """Cams on the shaft, rollers on the rocker; none where the cams cannot be."""
     spec = design.spec.cam
     if spec is None or not design.cams.stand:
         return []
-    axis, pivot = track(design.cam_center, fraction), design.linkage.input_pivot
-    rocker = design.linkage.motion(360.0 * fraction, 0).input_angle
+    axis, pivot, turned = track(design.cam_center, here.inputs), here.at("input"), here.inputs
     rollers = [(spec.roller, spec.roller.angle)]
     if spec.return_roller is not None:
         rollers.append((spec.return_roller, spec.roller.angle + spec.return_roller.angle))
     parts: list[Part] = []
     for cam, color in zip(design.cams.discs, _CAM_COLORS, strict=False):
-        parts.append(disc_cam(cam, axis, spec.sense * TURN * fraction, color))
+        parts.append(disc_cam(cam, axis, spec.sense * turned, color))
     for (roller, angle), color in zip(rollers, _CAM_COLORS, strict=False):
-        center = pivot + roller.arm * np.exp(1j * (rocker + math.radians(angle)))
-        parts.append(Chain(joints=(track(pivot, fraction), center), color=BLUE, marked=False))
-        parts.append(wheel(center, roller.radius, fraction, color=color, fill=pale(color, 0.3)))
-    parts.append(wheel(axis, max(spec.shaft_radius, 1e-3), fraction, color=BLACK, fill="#ffffff"))
+        center = here.at("input", cmath.rect(roller.arm, math.radians(angle)))
+        parts.append(Chain(joints=(pivot, center), color=style.BLUE, marked=False))
+        parts.append(wheel(center, roller.radius, turned, color=color, fill=pale(color, 0.3)))
+    parts.append(wheel(axis, max(spec.shaft_radius, 1e-3), turned, color=style.BLACK, fill="#ffffff"))
     return parts
-
-
-def _swing(design: SwingGripper, degrees: Reals) -> Reals:
-    return np.asarray(np.degrees(design.law.evaluate(degrees, 0)[0]))
-
-
-def _chart(design: SwingGripper, degrees: Reals) -> Chart:
-    curve = Curve("gripper", BLUE, _swing(design, 360.0 * loop()), _swing(design, degrees))
-    return Chart(
-        "cylinder angle [deg]", "swing of the gripper [deg]", 360.0 * loop(), degrees, (curve,), _phases(design)
-    )
-
-
-def _phases(design: SwingGripper) -> tuple[Band, ...]:
-    starts = design.law.starts
-    named = zip(PHASES, starts, starts[1:], strict=False)
-    return bands((name, start, end, PHASE_TINTS[name]) for name, start, end in named)
-
-
-def _readouts(design: SwingGripper, degrees: Reals) -> tuple[Readout, ...]:
-    speed = design.law.evaluate(degrees, 1)[1] * design.shaft_speed * design.spec.arm.length
-    return (
-        Readout("cylinder", "°", degrees),
-        Readout("swing", "°", _swing(design, degrees)),
-        Readout("speed of the tip", " mm/s", speed),
-    )
 
 
 _ROWS = 1440
@@ -203,10 +154,9 @@ def _draw_motion(command: str, design: SwingGripper) -> Figure:
     return made
 
 
-def phases(design: SwingGripper) -> list[panels.Phase]:
+def phases(design: SwingGripper) -> tuple[panels.Phase, ...]:
     """The six phases of the law."""
-    starts = design.law.starts
-    return [panels.Phase(name, start, end) for name, start, end in zip(PHASES, starts, starts[1:], strict=False)]
+    return panels.phases_of(without_cams(design).outputs[0])
 
 
 def _law(axes: list[Axes], design: SwingGripper) -> None:
@@ -230,14 +180,13 @@ def _law(axes: list[Axes], design: SwingGripper) -> None:
 
 def _torques(axes: Axes, design: SwingGripper) -> None:
     """Contact torques of both rollers: spring and inertia; what is left above zero keeps them on their cams."""
-    table = design.table("forces", samples=_ROWS)
-    column = dict(zip(table.columns, table.data, strict=True))
+    column = design.table("forces", samples=_ROWS)
     panels.turn_panel(axes, "torque [N m]")
     axes.plot(column["theta"], column["inertia_torque"], color=style.GREEN, linewidth=1.2, label="inertia")
     for name, color, line in zip(("main", "return"), panels.CAM_COLORS, panels.CAM_LINES, strict=True):
-        if f"contact_torque_{name}" not in column:
+        if f"contact_torque_{name}" not in column.columns:
             continue
-        values = np.asarray(column[f"contact_torque_{name}"])
+        values = column[f"contact_torque_{name}"]
         least = int(values.argmin())
         words = f"{name} roller, ≥ {style.number(values[least], 4)} N m"
         axes.plot(column["theta"], values, color=color, linewidth=1.6, linestyle=line, label=words)
@@ -288,8 +237,7 @@ def _draw_cams(command: str, design: SwingGripper) -> Figure:
     curves = [made.add_subplot(rows[i]) for i in range(3)]
     table = design.table("motion", samples=1440)
     panels.turn_panel(curves[0], "rocker\nangle [deg]")
-    angle = np.asarray(table.data[table.columns.index("input_angle")])
-    curves[0].plot(table.data[0], angle, color=style.BLUE, linewidth=1.6)
+    curves[0].plot(table.data[0], table["input_angle"], color=style.BLUE, linewidth=1.6)
     panels.heading(curves[0], "Cam rocker AC over the cam angle")
     panels.pressure_angles(curves[1], cams, design.spec.limits.pressure_angle, "")
     _accelerating(curves[1], design)

@@ -7,32 +7,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import failing, linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.gears import gear
-from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.views.scenes.scene import (
-    BLUE,
-    DWELL,
-    GREEN,
-    ORANGE,
-    STEP,
-    TURN,
-    Band,
-    Curve,
-    Readout,
-    Reals,
-    Scene,
-    bands,
-    fixed_circle,
-)
+from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
+from gearlink.cli.views.scenes.gears import Toothed, train
+from gearlink.cli.views.scenes.of_motion import Positions, Seen
+from gearlink.cli.views.scenes.scene import DWELL, STEP, Band, Reals, Scene, bands, fixed_circle
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.mechanism import OUTPUT, poles
 from gearlink.core.machines.three_gear.motion import output_angle
-from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,41 +28,23 @@ if TYPE_CHECKING:
 
 def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
-    linkage, phi = design.linkage, TURN * fraction
-    at = Joints.of(design.moving, phi)
-    first, second = design.meshes.values()
-    idler = _idler_turn(design, at.coupler, phi)
-    output = _output_turn(design, at.rocker, idler)
-    share = design.crank_teeth / design.idler_teeth
-    idler_turns = coupler_windings(design.moving) * (1.0 + share) - share
-    (now, rate), (whole, _) = (OUTPUT.rates(design.moving, angles, 1) for angles in (phi, whole_turn()))
-    swept = np.degrees(now)
-    ring = design.crank_teeth < 0
-    crank_gear = gear(first, int(ring), at.b, phi, 1.0, BLUE, "1", f"gear 1, crank {_kind(design.crank_teeth)}")
-    return Scene(
-        parts=(
-            *gear(
-                second,
-                1,
-                at.d,
-                output,
-                design.mean_ratio,
-                ORANGE,
-                "5",
-                f"gear 5, output {_kind(design.output_teeth)}",
-                design.outer_rim("idler_output"),
-            ),
-            *(crank_gear if ring else ()),
-            *gear(first, 0 if ring else 1, at.c, idler, idler_turns, GREEN, "3", "gear 3, idler"),
-            *(() if ring else crank_gear),
-            fixed_circle(0j, linkage.crank, "path of the crank pin B"),
-            at.chain(),
-        ),
-        marks=at.marks(),
-        chart=over_crank(
-            phi, (Curve("output", ORANGE, np.degrees(whole), swept),), "output angle [deg]", _bands(design)
-        ),
-        readouts=(crank_readout(phi), Readout("output", "°", swept), Readout("speed ratio", "", rate)),
+    here = Positions.of(design, fraction)
+    ring, end = design.crank_teeth < 0, design.output_teeth < 0
+    gears = (
+        Toothed("crank", "B", style.BLUE, "1", f"gear 1, crank {_kind(design.crank_teeth)}", ring),
+        Toothed("idler", 0j, style.GREEN, "3", "gear 3, idler"),
+        Toothed("output", 0j, style.ORANGE, "5", f"gear 5, output {_kind(design.output_teeth)}", end,
+                design.outer_rim("idler_output")),
+    )  # fmt: skip
+    crank, idler, output = train(here, list(design.meshes.values()), gears)
+    path = fixed_circle(0j, design.linkage.crank, "path of the crank pin B")
+    now, rate = OUTPUT.rates(design.moving, here.inputs, 1)
+    return here.scene(
+        (*output, *(crank if ring else ()), *idler, *(() if ring else crank), path, here.chain),
+        {"output": Seen(OUTPUT, style.ORANGE)},
+        "output angle [deg]",
+        marked=_bands(design),
+        values={"output": ("°", np.degrees(now)), "speed ratio": ("", rate)},
     )
 
 
@@ -100,28 +69,15 @@ def _kind(teeth: int) -> str:
     return "ring gear" if teeth < 0 else "gear"
 
 
-def _idler_turn(design: ThreeGearFourBar, coupler: Reals, phi: Reals) -> Reals:
-    """Direction of the idler's first tooth space [rad]; a ring on the crank has a tooth where a gear has a space."""
-    crank, idler = design.crank_teeth, design.idler_teeth
-    return coupler - crank / idler * (phi - coupler) if crank < 0 else driven_turn((crank, idler), coupler, phi)
-
-
-def _output_turn(design: ThreeGearFourBar, rocker: Reals, idler: Reals) -> Reals:
-    """Direction of the output gear's first tooth space, or of a tooth of the ring [rad]."""
-    second = design.idler_teeth, abs(design.output_teeth)
-    return ring_turn(second, rocker, idler) if design.output_teeth < 0 else driven_turn(second, rocker + math.pi, idler)
-
-
 def draw(command: str, design: ThreeGearFourBar) -> Figure:
     """The figure of a command on a three-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         names = (("crank-idler", ("3", "1") if design.crank_teeth < 0 else ("1", "3")), ("idler-output", ("3", "5")))
         meshes = zip(design.meshes.values(), names, strict=True)
         return mesh_figure(title, [Mesh(mesh, *name) for mesh, name in meshes])
-    charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
+    output: linkage.Panel = partial(linkage.output, mark=_mark, gid="output-angle")
+    charts = [output, *([_magnified] if design.dwell_crank_angles else []), _speed]
     if command == "analyze":
         charts += [_acceleration, _transmission]
     return linkage.sheet(title, design, mechanism, words(design), charts)
@@ -159,22 +115,6 @@ def _mark(axes: Axes, design: ThreeGearFourBar, label: bool = False) -> None:
     linkage.standstills(axes, design.dwell_crank_angles, "standstill" if label else None)
 
 
-def _output(axes: Axes, design: ThreeGearFourBar) -> None:
-    linkage.chart(axes, "Output angle", "output angle [deg]")
-    _mark(axes, design, label=True)
-    x, y = linkage.over_turn(design, "output_angle", linkage.TURN * design.mean_ratio)
-    axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="output-angle")
-    axes.plot(
-        [0.0, linkage.TURN],
-        [0.0, linkage.TURN * design.mean_ratio],
-        color=style.GREY,
-        linewidth=0.9,
-        linestyle=style.DOTTED,
-        label="mean",
-    )
-    panels.legend_above(axes, 2)
-
-
 def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     """The output about its dwell, counted from its place at the start of it."""
     dwell = _dwell(design)
@@ -188,9 +128,7 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     degrees = np.linspace(low, high, 401)
     at_start = output_angle(design.linkage, design.train, math.radians(dwell.start))
     output = OUTPUT.rates(design.moving, np.radians(degrees), 0)[0] - at_start
-    style.curves(axes, "crank angle [deg]", "output from its\nstandstill [deg]")
-    panels.small_ticks(axes)
-    panels.heading(axes, "Dwell, magnified")
+    panels.curves(axes, "crank angle [deg]", "output from its\nstandstill [deg]", "Dwell, magnified")
     axes.plot(degrees, np.degrees(output), color=style.BLUE, linewidth=1.6, gid="magnified")
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     _tolerance(axes, design, at_start, dwell.start)
@@ -261,53 +199,37 @@ def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: floa
 
 
 def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
-    linkage.chart(axes, "Speed ratio", "output speed/\ncrank speed")
-    _mark(axes, design)
-    x, y = linkage.over_turn(design, "speed_ratio")
-    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     axes.axhline(design.mean_ratio, color=style.GREY, linewidth=0.9, linestyle=style.DOTTED, label="mean")
-    axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="speed-ratio")
-    extremes = design.speed_extremes
-    panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
-    panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
-    axes.margins(y=0.25)
-    time_axes.in_time(axes, design.angular_speed, 1, "rad")
+    words = "Speed ratio", "output speed/\ncrank speed", "speed_ratio"
+    linkage.rate(axes, design, *words, 1, mark=_mark, zero=style.BLACK, gid="speed-ratio")
+    _extremes(axes, design.speed_extremes)
     panels.legend_above(axes, 3)
 
 
 def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
-    linkage.chart(axes, "Acceleration ratio", "output acceleration/\n(crank speed)²")
-    _mark(axes, design)
-    x, y = linkage.over_turn(design, "acceleration_ratio")
-    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    axes.plot(x, y, color=style.PURPLE, linewidth=1.6, gid="acceleration-ratio")
-    extremes = design.acceleration_extremes
-    panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
-    panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
+    words = "Acceleration ratio", "output acceleration/\n(crank speed)²", "acceleration_ratio"
+    look: Any = {"color": style.PURPLE, "zero": style.BLACK, "gid": "acceleration-ratio"}
+    linkage.rate(axes, design, *words, 2, mark=_mark, **look)
+    _extremes(axes, design.acceleration_extremes)
+
+
+def _extremes(axes: Axes, found: Any) -> None:
+    panels.extreme(axes, math.degrees(found.greatest_angle) % linkage.TURN, found.greatest, above=True)
+    panels.extreme(axes, math.degrees(found.least_angle) % linkage.TURN, found.least, above=False)
     axes.margins(y=0.25)
-    time_axes.in_time(axes, design.angular_speed, 2, "rad")
 
 
 def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
-    linkage.chart(axes, "Transmission angle", "transmission\nangle [deg]")
+    linkage.transmission(axes, design)
     _mark(axes, design)
-    x, y = linkage.over_turn(design, "transmission_angle")
-    limit = design.spec.limits.transmission_angle
-    axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
-    failing.past(axes, x, y, y < limit, "below the limit")
-    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
     least = math.degrees(design.min_transmission_angle)
     axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED, label=f"minimum {least:.5g}°")
-    axes.set_ylim(0.0, 92.0)
     axes.set_yticks(range(0, 91, 15))
     panels.legend_above(axes, 3)
 
 
 _LINKS = {
-    "crank_length": "crank AB",
-    "coupler_length": "coupler BC",
-    "rocker_length": "rocker CD",
-    "frame_length": "frame AD",
+    **linkage.FOUR_BAR,
     "gear_gap": "gap of gears 1 and 5",
     "min_transmission_angle": "minimum transmission angle",
     "mean_ratio": "output revolutions per crank revolution",
@@ -336,8 +258,7 @@ def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:
     """Links and gears to scale in the dwell position; lightly, gears 1 and 5 at their closest."""
     angle, words = dwell_position(design)
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(angle) % 360.0:.5g}°")
-    scene = build(design, np.array([angle / (2.0 * math.pi), 0.0]))
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([angle / (2.0 * math.pi) + scene_axes.AHEAD])))
+    scene = scene_axes.turned(axes, design, build, angle / (2.0 * math.pi), 0.0)
     if abs(math.remainder(angle, 2.0 * math.pi)) > math.radians(1.0):
         scene_axes.lightly(
             axes, scene, 1, name="crank along the frame" if design.gear_gap is None else "gears 1 and 5 closest"
@@ -404,11 +325,10 @@ _CLOSE = 0.06
 def draw_poles(design: ThreeGearFourBar) -> Figure:
     """The linkage at each standstill with its poles; A, F = P13 and E = P35 lie in line there."""
     places = design.dwell_crank_angles[:_MOST] or [design.speed_ratio_min_at]
-    made = panels.page(f"{design.spec.name}: instant centres", 0.5 * len(places) + 0.1)
-    grid = made.add_gridspec(len(places), 1)
+    title, share = f"{design.spec.name}: instant centres", 0.5 * len(places) + 0.1
+    made, rows = panels.stack(title, [1.0] * len(places), share)
     words = "standstill" if design.dwell_crank_angles else "minimum speed"
-    for row, phi in enumerate(places):
-        axes = made.add_subplot(grid[row])
+    for axes, phi in zip(rows, places, strict=True):
         panels.drawing(axes, f"Poles at the {words}, crank angle {math.degrees(phi):.5g}°")
         scene_axes.draw(axes, build(design, np.array([phi / _TURN])))
         _poles(axes, design, phi)

@@ -5,9 +5,8 @@ A tornado chart has each source at its limits, all others nominal, the widest ef
 
 from __future__ import annotations
 
-import cmath
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -42,9 +41,7 @@ def draw(study: ToleranceStudy) -> Figure:
         _histogram(made.add_subplot(grid[row, 0]), study, name)
         _contributions(made.add_subplot(grid[row, 1]), study, name)
     if not names:
-        axes = made.add_subplot(grid[0, :])
-        axes.axis("off")
-        axes.text(0.5, 0.5, "nothing varies", ha="center", va="center")
+        panels.message(made.add_subplot(grid[0, :]), "nothing varies", 10)
     for i, course in enumerate(courses, start=max(1, len(names))):
         _course(made.add_subplot(grid[i, :]), course)
     return made
@@ -59,10 +56,9 @@ def _course(axes: Axes, course: Course) -> None:
     """Percentiles of an output over the cycle, about that of the nominal design."""
     places, (low, five, middle, most, high) = _closed(course)
     over, unit = course.units
-    style.curves(
+    panels.curves(
         axes, f"{course.over.replace('_', ' ')} [{over}]", f"off nominal [{unit}]" if unit != "1" else "off nominal"
     )
-    panels.small_ticks(axes)
     far = bool((low == low).any())
     if far:
         axes.fill_between(places, low, high, color=style.SKY, alpha=0.35, linewidth=0, label="99.73 %")
@@ -93,8 +89,7 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     values = values[~np.isnan(values)]
     unit = study.units[name]
     words = name.replace("_", " ")
-    style.curves(axes, f"{words} [{unit}]" if unit != "1" else words, "density")
-    panels.small_ticks(axes)
+    panels.curves(axes, f"{words} [{unit}]" if unit != "1" else words, "density")
     axes.ticklabel_format(axis="x", useOffset=False)
     bins = min(_MOST_BINS, math.ceil(2.0 * math.cbrt(len(values))))  # more show the few samples, not the density
     axes.hist(values, bins=bins, density=True, histtype="stepfilled", color=style.SKY, gid="density")  # one patch
@@ -153,13 +148,9 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     kind = "total" if rows[0]["total"] is not None else "linear"
     shares: list[tuple[str, Any, Any]] = [(row["source"], row[kind], row["total_pm"]) for row in rows]
     what = "total Sobol' index" if kind == "total" else "share of the variance"
-    style.curves(axes, what, "")
-    panels.small_ticks(axes)
-    panels.heading(axes, "Contributions")
+    panels.curves(axes, what, "", "Contributions")
     if any(share is None for _, share, _ in shares):
-        axes.axis("off")
-        words = "the quantity has a kink here:\nno linear shares; use --sobol"
-        axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=8, transform=axes.transAxes)
+        panels.message(axes, "the quantity has a kink here:\nno linear shares; use --sobol")
         return
     shares.sort(key=lambda row: row[1])
     error = [row[2] for row in shares] if kind == "total" else None
@@ -170,8 +161,8 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     axes.set_xlim(0.0, 1.12 * axes.get_xlim()[1])
 
 
-_MOST_BARS, _AROUND = 12, 24
-"""Bars of a quantity at most, and the directions in which the play of a pin is tried."""
+_MOST_BARS = 12
+"""Bars of a quantity at most."""
 
 
 def study_of(design: Any) -> ToleranceStudy | None:
@@ -184,6 +175,8 @@ def study_of(design: Any) -> ToleranceStudy | None:
 
 def draw_tornado(design: Any) -> Figure:
     """A panel for each quantity of the study: its change with each source at its lower and its upper limit."""
+    from gearlink.core.studies.tolerance_study.effects import effects
+
     study = study_of(design)
     assert study is not None, "asked for only where there is one"
     found, nominal = effects(study, list(study.problem.names))
@@ -202,47 +195,12 @@ def _is_moved(rows: list[tuple[str, float, float]], nominal: float) -> bool:
     return most > max(_NOTHING * abs(nominal), _ROUNDING)
 
 
-Effects: TypeAlias = dict[str, list[tuple[str, float, float]]]
-
-
-def effects(study: ToleranceStudy, names: list[str]) -> tuple[Effects, dict[str, float]]:
-    """Source, change at its lower and at its upper limit, by quantity, the widest first; and the nominal values.
-
-    Notes
-        The play of a pin acts in the direction of the smallest and of the largest value, of 24.
-    """
-    from gearlink.core.studies.tolerance_study.samples import evaluated
-
-    made = study.problem
-    shifts: list[dict[str, complex]] = [{}]
-    owner: list[str] = [""]
-    for source in made.sources:
-        ends: list[complex] = [source.law.lower, source.law.upper] if source.kind != "pin" else [
-            cmath.rect(source.limit, 2.0 * cmath.pi * k / _AROUND) for k in range(_AROUND)
-        ]  # fmt: skip
-        for end in ends:
-            shifts.append({one.key: end if one.key == source.key else 0.0 for one in made.sources})
-            owner.append(source.key)
-    values = evaluated(made, made.offsets(shifts)).quantities
-    found: dict[str, list[tuple[str, float, float]]] = {}
-    for name in names:
-        change = np.asarray(values[name], dtype=float) - float(values[name][0])
-        rows = []
-        for source in made.sources:
-            own = change[[k for k, key in enumerate(owner) if key == source.key]]
-            low, high = (own[0], own[1]) if source.kind != "pin" else (float(np.nanmin(own)), float(np.nanmax(own)))
-            rows.append((source.key, float(low), float(high)))
-        found[name] = sorted(rows, key=lambda row: -max(abs(row[1]), abs(row[2])))
-    return found, {name: float(values[name][0]) for name in names}
-
-
 def _panel(axes: Axes, study: ToleranceStudy, name: str, rows: list[tuple[str, float, float]], nominal: float) -> None:
     unit = study.units[name]
     least = 1e-6 * max(abs(end) for _, *ends in rows for end in ends)
     shown = [row for row in rows[:_MOST_BARS] if max(abs(row[1]), abs(row[2])) > least][::-1]
     words = name.replace("_", " ")
-    style.curves(axes, f"change of {words}" + ("" if unit == "1" else f" [{unit}]"), "")
-    panels.small_ticks(axes)
+    panels.curves(axes, f"change of {words}" + ("" if unit == "1" else f" [{unit}]"), "")
     looks = (1, style.SKY, "at the lower limit", 0.7), (2, style.ORANGE, "at the upper limit", 0.42)
     for side, color, label, height in looks:
         values = [row[side] for row in shown]

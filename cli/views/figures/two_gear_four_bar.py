@@ -9,25 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.gears import gear
-from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.views.scenes.scene import (
-    BLUE,
-    ORANGE,
-    STEP,
-    TURN,
-    Band,
-    Curve,
-    Readout,
-    Reals,
-    Scene,
-    bands,
-    fixed_circle,
-)
+from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
+from gearlink.cli.views.scenes.gears import Toothed, train
+from gearlink.cli.views.scenes.of_motion import Positions, Seen
+from gearlink.cli.views.scenes.scene import STEP, Part, Reals, Scene, bands, fixed_circle
 from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
 from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
-from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,38 +24,22 @@ if TYPE_CHECKING:
 
 def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
-    phi = TURN * fraction
-    at = Joints.of(design.moving, phi)
+    here = Positions.of(design, fraction)
     name = "gear 5, ring gear" if design.internal else "gear 5, sun"
-    planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.moving), BLUE, "2", "gear 2, planet on BC")
-    rim = design.outer_rim()
-    output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, ORANGE, "5", name, rim)
-    swept, whole = (np.degrees(OUTPUT.rates(design.moving, angles, 0)[0]) for angles in (phi, whole_turn()))
-    curve = Curve("output", ORANGE, whole, swept)
-    return Scene(
-        parts=(*output, *planet, fixed_circle(0j, design.crank_length), at.chain()),
-        marks=at.marks(),
-        chart=over_crank(phi, (curve,), "output angle [deg]", _bands(design)),
-        readouts=(crank_readout(phi), Readout("output", "°", swept)),
+    gears = (
+        Toothed("coupler", "B", style.BLUE, "2", "gear 2, planet on BC"),
+        Toothed("output", 0j, style.ORANGE, "5", name, design.internal, design.outer_rim()),
     )
+    planet, output = train(here, [design.mesh], gears)
+    links: tuple[Part, ...] = (fixed_circle(0j, design.crank_length), here.chain)
+    steps = bands(("back-step", math.degrees(step.start), math.degrees(step.end), STEP) for step in design.back_steps)
+    seen = {"output": Seen(OUTPUT, style.ORANGE)}
+    return here.scene((*output, *planet, *links), seen, "output angle [deg]", marked=steps)
 
 
-def output_turn(design: TwoGearFourBar, phi: Reals) -> Reals:
-    """Direction of the output gear's first space, or of a tooth of the ring [rad]."""
-    coupler = Joints.of(design.moving, phi).coupler
-    teeth = design.planet_teeth, design.output_teeth
-    return ring_turn(teeth, phi, coupler) if design.internal else driven_turn(teeth, phi + math.pi, coupler)
-
-
-def _bands(design: TwoGearFourBar) -> tuple[Band, ...]:
-    return bands(("back-step", math.degrees(step.start), math.degrees(step.end), STEP) for step in design.back_steps)
-
-
+_TURN = 2.0 * math.pi
 _WORDS = {
-    "crank_length": "crank AB",
-    "coupler_length": "coupler BC",
-    "rocker_length": "rocker CD",
-    "frame_length": "frame AD",
+    **linkage.FOUR_BAR,
     "gear_ratio": "gear ratio, −z₂/z₅ (ring: z₂/z₅)",
     "standstill_coupler_ratio": "ω₂/ω₁ at a standstill",
     "dwell_teeth_ratio": "maximum z₅/z₂ with a standstill",
@@ -83,17 +55,17 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
     """The sheet of a command on a two-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
-
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
+    marked = partial(linkage.rate, mark=_marks)
     charts: list[linkage.Panel] = [
-        _output,
+        partial(linkage.output, mark=_marks, label="output"),
         *([_magnified] if design.tolerance_dwell is not None else []),
-        linkage.over_crank,
-        partial(_curve, title="Output speed", ylabel="speed ratio", name="speed_ratio"),
-        partial(_curve, title="Coupler speed", ylabel="ω₂/ω₁", name="coupler_ratio"),
-        partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
-    ]
+        linkage.transmission,
+        partial(marked, title="Output speed", ylabel="speed ratio", name="speed_ratio", order=1),
+        _coupler,
+        partial(marked, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio",
+                order=2),
+    ]  # fmt: skip
     known = design.quantity_names()  # a synthesis for a back-step or a momentary dwell has no window
     return linkage.sheet(title, design, mechanism, {name: _WORDS[name] for name in _WORDS if name in known}, charts)
 
@@ -104,8 +76,7 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     phi = places[0] if places else design.speed_ratio_min_at
     words = "standstill" if places else "minimum output speed"
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
-    scene = build(design, np.array([phi / (2.0 * math.pi)]))
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([phi / (2.0 * math.pi) + scene_axes.AHEAD])))
+    scene = scene_axes.turned(axes, design, build, phi / (2.0 * math.pi))
     pole, d = cmath.rect(abs(design.mesh.reference_radius[1]), phi), complex(design.frame_length)
     axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
     joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)
@@ -113,26 +84,11 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     axes.plot([joint.real, far.real], [joint.imag, far.imag], **look, label="from D through the pitch point")
 
 
-def _curve(axes: Axes, design: TwoGearFourBar, title: str, ylabel: str, name: str) -> None:
-    linkage.chart(axes, title, ylabel)
-    _marks(axes, design)
-    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
-    axes.plot(*linkage.over_turn(design, name), color=style.BLUE, linewidth=1.6)
-    if name == "coupler_ratio":
-        stands = design.standstill_coupler_ratio
-        axes.axhline(stands, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label="output stands")
-        panels.legend_above(axes, 1)
-    time_axes.in_time(axes, design.angular_speed, 2 if name == "acceleration_ratio" else 1, "rad")
-
-
-def _output(axes: Axes, design: TwoGearFourBar) -> None:
-    linkage.chart(axes, "Output angle", "output angle [deg]")
-    _marks(axes, design, label=True)
-    gained = linkage.TURN * design.mean_ratio
-    axes.plot(*linkage.over_turn(design, "output_angle", gained), color=style.BLUE, linewidth=1.6, label="output")
-    look = {"color": style.GREY, "linewidth": 0.9, "linestyle": style.DOTTED}
-    axes.plot([0.0, linkage.TURN], [0.0, gained], **look, label="mean")
-    panels.legend_above(axes, 2)
+def _coupler(axes: Axes, design: TwoGearFourBar) -> None:
+    linkage.rate(axes, design, "Coupler speed", "ω₂/ω₁", "coupler_ratio", 1, mark=_marks)
+    stands = design.standstill_coupler_ratio
+    axes.axhline(stands, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label="output stands")
+    panels.legend_above(axes, 1)
 
 
 def _magnified(axes: Axes, design: TwoGearFourBar) -> None:
@@ -149,7 +105,7 @@ def _magnified(axes: Axes, design: TwoGearFourBar) -> None:
                       label=f"within ±{band:g}° over {width:.5g}°", gid="within")  # fmt: skip
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.plot(degrees, angle, color=style.BLUE, linewidth=1.6, gid="magnified")
-    linkage.standstills(axes, [turn + place for place in design.dwell_crank_angles for turn in (0.0, -TURN, TURN)])
+    linkage.standstills(axes, [turn + place for place in design.dwell_crank_angles for turn in (0.0, -_TURN, _TURN)])
     window = getattr(design, "window", None)
     asked = design.spec.dwell_window if window is None else math.degrees(window)
     if asked is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,14 +12,8 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
 from gearlink.cli.views.figures.drawing.panels import powers_of_ten
-from gearlink.cli.views.scenes.linkages import Joints
+from gearlink.cli.views.scenes.of_motion import Frame, Positions
 from gearlink.cli.views.scenes.scene import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    RED,
     TURN,
     Body,
     Chain,
@@ -32,13 +26,14 @@ from gearlink.cli.views.scenes.scene import (
     Reals,
     Scene,
     block,
+    circle,
     loop,
     pale,
     track,
     wheel,
 )
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
+from gearlink.core.machines.wide_swing.mechanism import slider_way
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,8 +44,9 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 
-_DASHED: Any = (0, (5, 3))
-_DOTTED: Any = (0, (1, 2))
+_ROW: dict[str, Any] = {"loc": "center", "ncols": 4, "fontsize": 7.5, "columnspacing": 1.4, "handlelength": 2.0}
+_BESIDE: dict[str, Any] = {"loc": "center left", "handlelength": 2.0, "borderaxespad": 0.5}
+"""Legends in a panel of their own: a row below drawings, and beside or below one of them."""
 ZONE = "#F7D9A8"
 
 
@@ -100,14 +96,18 @@ def cam_panel(axes: Axes, design: WideSwingDesign, title: str, cam: AnyCam, mirr
     _body(axes, design, cam, mirror)
     _pitch(axes, cam, mirror)
     _rockers(axes, cam, mirror)
-    shaft = design.section.shaft_radius
-    if shaft > 0.0:
-        style.circle(axes, 0j, shaft, color=style.BLACK, linewidth=1.2, hatch="////", zorder=4)
+    _shaft(axes, design)
+
+
+def _shaft(axes: Axes, design: WideSwingDesign) -> None:
+    """The shaft in the middle of a cam, and its axis."""
+    if (radius := design.section.shaft_radius) > 0.0:
+        style.circle(axes, 0j, radius, color=style.BLACK, linewidth=1.2, hatch="////", zorder=4)
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10, zorder=6, label="cam axis")
 
 
-def _mirrored(z: Any, mirror: float) -> tuple[Any, Any]:
-    return z.real, mirror * z.imag
+def _xy(points: Any, mirror: float = 1.0) -> tuple[Any, Any]:
+    return points.real, mirror * points.imag
 
 
 def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
@@ -116,16 +116,16 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
     run_up, bottom, run_out = contour(cam)
     edge = np.concatenate((run_up, bottom, run_out))
     rest = dwell_arc(cam) if design.spec.cycle is None else _rest_of_turn(design, cam, mirror)
-    x, y = _mirrored(np.concatenate((edge, rest)), mirror)
+    x, y = _xy(np.concatenate((edge, rest)), mirror)
     if cam.sense > 0:
         style.area(axes, x + 1j * y, color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
     else:
-        _ring(axes, x, y, 1.12 * float(np.abs(edge).max()) + cam.roller_radius)
-    axes.plot(*_mirrored(rest, mirror), color=style.BLUE, linewidth=0.8, zorder=2)
+        _ring(axes, x + 1j * y, 1.12 * float(np.abs(edge).max()) + cam.roller_radius)
+    axes.plot(*_xy(rest, mirror), color=style.BLUE, linewidth=0.8, zorder=2)
     for part, label in ((run_up, "profile"), (run_out, None)):
-        axes.plot(*_mirrored(part, mirror), color=style.BLUE, linewidth=1.8, zorder=3, label=label)
+        axes.plot(*_xy(part, mirror), color=style.BLUE, linewidth=1.8, zorder=3, label=label)
     axes.plot(
-        *_mirrored(bottom, mirror),
+        *_xy(bottom, mirror),
         color=style.ORANGE,
         linewidth=3.4,
         solid_capstyle="butt",
@@ -141,36 +141,22 @@ def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
     return rest if cam.sense > 0 else -rest.conj()
 
 
-def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:
+def _ring(axes: Axes, hollow: Any, radius: float) -> None:
     """The body outside an internal contour, as far as a circle."""
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path
-
-    turn = np.linspace(0.0, 2.0 * math.pi, 361)
-    inside = np.stack((x, y), axis=1)
-    around = radius * np.stack((np.cos(turn), np.sin(turn)), axis=1)
-    if _area(x, y) > 0.0:
-        inside = inside[::-1]
-    paths = [Path(around, closed=True), Path(inside, closed=True)]
-    style.cornered(
-        axes, PathPatch(Path.make_compound_path(*paths), facecolor=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
-    )
-    axes.plot(around[:, 0], around[:, 1], color=style.BLUE, linewidth=0.8, zorder=2)
-
-
-def _area(x: Any, y: Any) -> float:
-    return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+    rim = circle(radius, 360)
+    style.holed(axes, rim, hollow, facecolor=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+    axes.plot(*_xy(rim), color=style.BLUE, linewidth=0.8, zorder=2)
 
 
 def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
     pitch = cam.points(np.linspace(0.0, 1.0, 601)).pitch
     axes.plot(
-        *_mirrored(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=_DASHED, label="pitch curve", zorder=3
+        *_xy(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=style.DASHED, label="pitch curve", zorder=3
     )
     middle = cam.middle
     zone = min(cam.transition_zone, middle, 1.0 - middle)
     part = cam.points(np.linspace(middle - zone, middle + zone, 101)).pitch
-    axes.plot(*_mirrored(part, mirror), color=style.ORANGE, linewidth=3.0, solid_capstyle="butt", zorder=4)
+    axes.plot(*_xy(part, mirror), color=style.ORANGE, linewidth=3.0, solid_capstyle="butt", zorder=4)
 
 
 def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
@@ -179,20 +165,17 @@ def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     pivots = -cam.sense * cam.center_distance * np.exp(1j * cam.sense * points.cam_angle)
     looks = (("start", style.GREEN), ("mid-swing", style.BLACK), ("end", style.PURPLE))
     for roller, pivot, (name, color) in zip(points.pitch, pivots, looks, strict=True):
-        arm = [complex(z.real, mirror * z.imag) for z in (pivot, roller)]
-        axes.plot(
-            [z.real for z in arm], [z.imag for z in arm], color=color, linewidth=2.0, zorder=5, label=f"rocker, {name}"
-        )
-        axes.plot([arm[0].real], [arm[0].imag], "^", color=color, markersize=6, zorder=6)
+        arm = np.array([complex(*_xy(z, mirror)) for z in (pivot, roller)])
+        axes.plot(arm.real, arm.imag, color=color, linewidth=2.0, zorder=5, label=f"rocker, {name}")
+        axes.plot(arm.real[:1], arm.imag[:1], "^", color=color, markersize=6, zorder=6)
         style.circle(axes, arm[1], cam.roller_radius, color=color, linewidth=1.1, zorder=6)
-    style.circle(axes, 0j, cam.center_distance, color=style.GREY, linewidth=0.7, linestyle=_DOTTED, zorder=1)
+    style.circle(axes, 0j, cam.center_distance, color=style.GREY, linewidth=0.7, linestyle=style.DOTTED, zorder=1)
 
 
 def stroke_axis(axes: Axes, design: WideSwingDesign, ylabel: str) -> None:
     """Curves over a stroke, and its time where both strokes take the same."""
-    style.curves(axes, "fraction of the stroke k", ylabel)
+    panels.curves(axes, "fraction of the stroke k", ylabel)
     axes.set_xlim(0.0, 1.0)
-    panels.small_ticks(axes)
     if design.motion.return_angle == design.motion.cycle_angle:
         time_axes.in_ms(axes, 1e3 * design.motion.working_time)
 
@@ -212,7 +195,7 @@ def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
     limit = design.spec.limits.pressure_angle
     for sign in (1.0, -1.0):
         name = f"limit ±{limit:g}°" if sign > 0.0 else None
-        axes.axhline(sign * limit, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=name)
+        axes.axhline(sign * limit, color=style.RED, linewidth=1.0, linestyle=style.DASHED, label=name)
     panels.legend_under_heading(axes, "Pressure angle")
 
 
@@ -238,17 +221,17 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
         failing.past(axes, k, radius, (radius > 0.0) & (radius <= cam.roller_radius), f"{words}, undercut")
         if (radius < 0.0).any():
             hollow = np.where(radius < 0.0, -radius, np.nan)
-            axes.plot(k, hollow, color=color, linewidth=1.2, linestyle=_DOTTED, label=f"{words}, concave")
+            axes.plot(k, hollow, color=color, linewidth=1.2, linestyle=style.DOTTED, label=f"{words}, concave")
     _zone(axes, design)
     roller = design.section.roller_radius
-    axes.axhline(roller, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=f"roller radius {roller:g} mm")
+    axes.axhline(roller, color=style.RED, linewidth=1.0, linestyle=style.DASHED, label=f"roller radius {roller:g} mm")
     axes.set_ylim(0.3 * roller, min(100.0 * design.section.center_distance, 3.0 * max(greatest, 10.0 * roller)))
     panels.legend_under_heading(axes, "Curvature radius of the pitch curve")
 
 
 @dataclass(frozen=True)
 class Cycle:
-    """The cycle of a cam that turns evenly, or of one on a crank-rocker, over fractions of the loop."""
+    """A wide swing over fractions of its loop: its whole cycle, or a stroke of an evenly turning cam and back."""
 
     design: WideSwingDesign
     fraction: Reals
@@ -273,37 +256,33 @@ class Cycle:
         )
 
     @cached_property
-    def share(self) -> float:
-        """Share of the loop that a stroke takes."""
-        return self.design.motion.cycle_angle / self.turned
-
-    @cached_property
     def stroke(self) -> Reals:
-        """k, fraction of the stroke: from 0 to 1 and back; the return takes the law from its other end."""
-        at = np.mod(self.fraction, 1.0)
-        if self.whole:
-            return self.design.cycle.main.swing_share(TURN * at)
-        if self.oscillates:
-            return np.where(at <= self.share, at / self.share, self._back(at))
-        out, back = np.clip(at / self.share, 0.0, 1.0), np.clip((at - 0.5) / self.share, 0.0, 1.0)
+        """k, fraction of a stroke alone: from 0 to 1 and back; the return takes the law from its other end."""
+        at, share = np.mod(self.fraction, 1.0), self.design.motion.cycle_angle / self.turned
+        out, back = np.clip(at / share, 0.0, 1.0), np.clip((at - 0.5) / share, 0.0, 1.0)
         return np.where(at < 0.5, out, 1.0 - back)
 
-    def _back(self, at: Reals) -> Reals:
-        """k where the cam that swings back stands as it did in the stroke."""
-        drive = self.design.motion.drive
-        bars = four_bar_motion(drive.linkage)
-        k = np.linspace(0.0, 1.0, 20001)
-        forth = Joints.of(bars, drive.crank_angles[0] + k * drive.crank_span).rocker
-        here = Joints.of(bars, drive.crank_angles[0] + TURN * at).rocker
-        rising = forth[-1] > forth[0]
-        return np.asarray(np.interp(here if rising else -here, forth if rising else -forth, k))
+    @cached_property
+    def here(self) -> Positions:
+        """The links.
+
+        Raises
+            MissingSection - of a whole cycle without its cams
+        """
+        if self.oscillates or (self.whole and self.design.cycle.main):
+            return Positions(self.design.moving, TURN * np.mod(self.fraction, 1.0))
+        return Positions(self.design.moving, self.design.motion.cycle_angle * self.stroke)
+
+    @cached_property
+    def pins(self) -> dict[str, Points]:
+        """The pins where the scene has them."""
+        stands = frame(self.design)
+        return {mark.text: stands.at(mark.point) for mark in self.here.marks}
 
     @cached_property
     def swing(self) -> Reals:
         """Angle of the rocker from mid-swing [rad]."""
-        law = self.design.motion.law
-        share = law.invariants(self.stroke, 0)[0]
-        return np.asarray((share - 0.5) * self.design.motion.swing)
+        return self.here.turn("rocker")
 
     def cam_turn(self, *, back: bool = False) -> Reals:
         """Angle of an evenly turning cam from mid-swing of the stroke that it guides, the return of the last [rad]."""
@@ -318,20 +297,28 @@ class Cycle:
         return self.turned * self.fraction - late - 0.5 * (motion.return_angle if back else motion.cycle_angle)
 
 
+def frame(design: WideSwingDesign) -> Frame:
+    """The scene has the rocker's pivot in its origin and the cam axis right of it, and goes on through both strokes."""
+
+    def inputs(fraction: Reals) -> Reals:
+        return Cycle(design, fraction).turned * fraction
+
+    if design.spec.cam is None:
+        return Frame(inputs, design.moving)
+    turn = -1.0 if design.spec.layout == "twin-rocker" else 1.0
+    return Frame(inputs, design.moving, turn, design.spec.cam.center_distance)
+
+
 def build(design: WideSwingDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; the rocker's pivot is the origin, the cam axis stands right of it."""
     cycle = Cycle(design, fraction)
-    base, pin = _device_pins(cycle)
-    marks = [Mark(track(0.0, fraction), "D", pivot=True), Mark(0.5 * (base + pin), "device")]
+    pins, (base, pin) = cycle.pins, _device_pins(cycle)
+    marks = [Mark(pins["D"], "D", pivot=True), Mark(0.5 * (base + pin), "device")]
     if design.spec.cam is not None:
-        marks.append(Mark(track(design.spec.cam.center_distance, fraction), "O", pivot=True))
+        marks.append(Mark(pins["O"], "O", pivot=True))
     if design.spec.layout == "twin-cam-parallel":
         marks.append(Mark(track(design.shafts.shafts[1], fraction), "O'", pivot=True))
-    if cycle.oscillates:
-        crank, *pins, _ = _crank_rocker(cycle)
-        marks += [Mark(crank, "A", pivot=True), *(Mark(joint, name) for joint, name in zip(pins, "BC", strict=True))]
-    if design.spec.slider is not None:
-        marks += [Mark(joint, name) for joint, name in zip(_slider_joints(cycle), "EF", strict=True)]
+    marks += [Mark(pins[name], name, pivot=name == "A") for name in "ABCEF" if name in pins]
     drive = "crank" if cycle.oscillates else "cam"
     return Scene(
         parts=(*_device(cycle), *_cams(cycle), *_slider(cycle)),
@@ -350,22 +337,23 @@ def _cams(cycle: Cycle) -> list[Part]:
     if design.spec.cam is None:
         return []
     if cycle.oscillates:
-        turn, joints = _cam_on_rocker(cycle), _crank_rocker(cycle)
+        middle = Positions(design.moving, np.array([0.5 * design.motion.drive.crank_span]))
+        turn = cycle.here.turn("cam") - middle.turn("cam")  # from the middle of the crank's stroke
         return [
-            *_cam(cycle, design.cam, turn, BLUE),
-            Chain(joints=joints, color=GREY),
+            *_cam(cycle, design.cam, turn, style.BLUE),
+            Chain(joints=tuple(cycle.pins[name] for name in "ABCO"), color=style.GREY),
             *_roller(cycle, design.cam.rocker_radius),
         ]
     other, seat = design.return_cam or design.cam, _second_seat(design)
-    back = _cam(cycle, other, cycle.cam_turn(back=True), RED, mirrored=True, seat=seat)
+    back = _cam(cycle, other, cycle.cam_turn(back=True), style.RED, mirrored=True, seat=seat)
     if design.spec.layout != "twin-rocker":
-        main = _cam(cycle, design.cam, -cycle.cam_turn(), BLUE)
+        main = _cam(cycle, design.cam, -cycle.cam_turn(), style.BLUE)
         arms = dict.fromkeys((complex(design.cam.rocker_radius), seat * other.rocker_radius))
         if design.spec.slider is not None:
-            back = _cam(cycle, other, cycle.cam_turn(back=True), RED)
+            back = _cam(cycle, other, cycle.cam_turn(back=True), style.RED)
         return [*back, *main, *(part for arm in arms for part in _roller(cycle, arm))]
     assert design.return_cam is not None, "a twin-rocker has two shapes"
-    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(), BLUE)
+    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(), style.BLUE)
     rollers = *_roller(cycle, -design.cam.rocker_radius), *_roller(cycle, design.return_cam.rocker_radius)
     return [*back, *main, *rollers]
 
@@ -415,48 +403,15 @@ def _roller(cycle: Cycle, arm: complex) -> list[Part]:
     assert cam is not None, "there is a roller where there is a cam"
     return [
         Chain(joints=(track(0.0, cycle.fraction), center), marked=False),
-        wheel(center, cam.roller_radius, cycle.fraction, color=BLACK, fill=pale(ORANGE, 0.6)),
+        wheel(center, cam.roller_radius, cycle.fraction, color=style.BLACK, fill=pale(style.ORANGE, 0.6)),
     ]
-
-
-def _cam_on_rocker(cycle: Cycle) -> Reals:
-    """Turn of a cam on the rocker of a crank-rocker, 0 at the middle of the crank's stroke [rad]."""
-    joints, drive = _drive_joints(cycle), cycle.design.motion.drive
-    middle = float(Joints.of(four_bar_motion(drive.linkage), np.array([0.5 * sum(drive.crank_angles)])).rocker[0])
-    return -_rising(cycle) * (joints.rocker - middle)
-
-
-def _rising(cycle: Cycle) -> float:
-    """+1 where the rocker of the drive turns counter-clockwise in the stroke, else -1."""
-    drive = cycle.design.motion.drive
-    ends = Joints.of(four_bar_motion(drive.linkage), np.array(drive.crank_angles)).rocker
-    return 1.0 if ends[1] > ends[0] else -1.0
-
-
-def _drive_joints(cycle: Cycle) -> Joints:
-    drive = cycle.design.motion.drive
-    return Joints.of(four_bar_motion(drive.linkage), drive.crank_angles[0] + TURN * cycle.fraction)
-
-
-def _crank_rocker(cycle: Cycle) -> tuple[Points, ...]:
-    """The crank-rocker of the cam, its rocker on the cam axis, mirrored where the cam asks for it."""
-    at, cam = _drive_joints(cycle), cycle.design.spec.cam
-    assert cam is not None, "the drive carries a cam"
-    aside = -complex(math.cos(math.radians(60.0)), -math.sin(math.radians(60.0)))
-    frame = cycle.design.motion.drive.linkage.frame
-
-    def placed(point: Points) -> Points:
-        from_rocker = point - frame
-        return np.asarray(cam.center_distance + aside * (from_rocker.conj() if _rising(cycle) > 0.0 else from_rocker))
-
-    return placed(at.a), placed(at.b), placed(at.c), placed(at.d)
 
 
 def _device(cycle: Cycle) -> list[Part]:
     """The unloading device, shortest at mid-swing, and its arm."""
     base, pin = _device_pins(cycle)
     return [
-        Chain(joints=(base, pin), color=GREEN, width=6.0),
+        Chain(joints=(base, pin), color=style.GREEN, width=6.0),
         Chain(joints=(track(0.0, cycle.fraction), pin)),
     ]
 
@@ -474,23 +429,14 @@ def _slider(cycle: Cycle) -> list[Part]:
     """The slider that the rocker moves through a rod."""
     if cycle.design.spec.slider is None:
         return []
-    rod, (pin, place) = cycle.design.motion.slider.drive.rod, _slider_joints(cycle)
-    return [
-        block(place, 0.14 * rod, 0.2 * rod, BLUE),
-        Chain(joints=(track(0.0, cycle.fraction), pin, place)),
-    ]
-
-
-def _slider_joints(cycle: Cycle) -> tuple[Points, Points]:
-    """The pins of the rod: on the rocker, on the slider."""
-    drive = cycle.design.motion.slider.drive
-    pin = drive.crank * np.exp(1j * (cycle.swing + drive.middle_angle - 0.5 * math.pi))
-    return pin, -drive.offset - 1j * drive.depth(cycle.swing)[0]
+    rod, (d, e, f) = cycle.design.motion.slider.drive.rod, (cycle.pins[name] for name in "DEF")
+    along = cycle.here.turn("slider") + 0.5 * math.pi
+    return [replace(block(f, 0.14 * rod, 0.2 * rod, style.BLUE), turn=along), Chain(joints=(d, e, f))]
 
 
 def _chart(cycle: Cycle, drive: str) -> Chart:
     whole = Cycle(cycle.design, loop(361))
-    curve = Curve("rocker", BLUE, np.degrees(whole.swing), np.degrees(cycle.swing))
+    curve = Curve("rocker", style.BLUE, np.degrees(whole.swing), np.degrees(cycle.swing))
     turned = math.degrees(cycle.turned)
     x, now = turned * loop(361), turned * cycle.fraction
     return Chart(f"{drive} angle from the start of the stroke [deg]", "rocker from mid-swing [deg]", x, now, (curve,))
@@ -544,17 +490,15 @@ def _history_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     )
     for i, (shaft, words) in enumerate((("rocker", "Rocker shaft"), ("drive", "Main shaft"))):
         axes = made.add_subplot(columns[0, i])
-        style.curves(axes, "time [ms]", "torque [N m]")
-        panels.small_ticks(axes)
+        panels.curves(axes, "time [ms]", "torque [N m]")
         for end, color, label in curves:
             axes.plot(history["time"], history[f"{shaft}_torque{end}"], color=color, linewidth=1.3, label=label)
         axes.set_xlim(0.0, float(history["time"][-1]))
         panels.legend_under_heading(axes, words, 1)
     axes = made.add_subplot(columns[0, 2])
-    style.curves(axes, "speed [rev/min]", "dynamic coefficient [1]")
-    panels.small_ticks(axes)
+    panels.curves(axes, "speed [rev/min]", "dynamic coefficient [1]")
     axes.plot(balance["speed"], balance["dynamic_coefficient"], color=style.BLUE, linewidth=1.6)
-    axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="design speed")
+    axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label="design speed")
     axes.set_xlim(0.0, float(balance["speed"][-1]))
     axes.set_ylim(0.0, 1.15 * float(np.max(balance["dynamic_coefficient"])))
     panels.legend_under_heading(axes, "Elastic over rigid torque", 1)
@@ -575,7 +519,8 @@ def _mechanism_panel(axes: Axes, design: WideSwingDesign) -> None:
     panels.drawing(axes, "Mechanism at mid-swing")
     section = design.spec.slider
     middle = 0.5 if section is None else design.motion.slider.middle_place
-    scene = build(design, Cycle(design, np.zeros(1)).share * np.array([middle, 0.0, 1.0]))
+    share = design.motion.cycle_angle / Cycle(design, np.zeros(1)).turned
+    scene = build(design, share * np.array([middle, 0.0, 1.0]))
     scene_axes.draw(axes, scene)
     device = scene.parts[0]
     assert isinstance(device, Chain), "from its pivot on the frame to its pin on the rocker"
@@ -587,8 +532,8 @@ def _mechanism_panel(axes: Axes, design: WideSwingDesign) -> None:
         links = scene.parts[-1]
         assert isinstance(links, Chain), "rocker and rod, to the slider"
         near, far = (complex(links.joints[-1][i]) for i in (1, 2))
-        aside = section.crank + 0.3 * section.rod
-        start, end = (complex(-aside, point.imag) for point in (near, far))
+        away, aside = slider_way(design), section.crank + 0.3 * section.rod
+        start, end = (away * complex((point / away).real, -aside) for point in (near, far))
         words = f"stroke {style.number(abs(far - near))} mm"
         style.dimension(axes, start, end, words, from_points=(near, far), upright=True)
     axes.margins(0.06)
@@ -601,7 +546,7 @@ def _law_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
 
     table = design.table("law")
     k: Any = table.data[0]
-    others = (("harmonic", law("simple-harmonic"), _DASHED), ("cycloidal", law("cycloidal"), _DOTTED))
+    others = (("harmonic", law("simple-harmonic"), style.DASHED), ("cycloidal", law("cycloidal"), style.DOTTED))
     columns = place.subgridspec(1, 3)
     for i, (name, symbol) in enumerate(_NAMES):
         axes = made.add_subplot(columns[0, i])
@@ -625,14 +570,7 @@ def _cam_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
         axes = made.add_subplot(rows[0, i])
         cam_panel(axes, design, title, cam, mirror)
         zone_words(axes, cam)
-    legend_row(made.add_subplot(rows[1, :]), axes)
-
-
-def legend_row(axes: Axes, drawing: Axes) -> None:
-    """The legend of drawings in a panel of its own below them."""
-    axes.set_axis_off()
-    handles, labels = drawing.get_legend_handles_labels()
-    axes.legend(handles, labels, loc="center", ncols=4, frameon=False, fontsize=7.5, columnspacing=1.4)
+    panels.legend_beside(made.add_subplot(rows[1, :]), axes, **_ROW)
 
 
 def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
@@ -644,14 +582,13 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     least = minimum_over(lambda n: peaks(n / design.spec.speed)[1], float(rows[0]), float(rows[-1]))
     speed = np.unique(np.concatenate([rows, np.linspace(rows[0], rows[-1], 241), [least.place]]))
     without, with_device = peaks(speed / design.spec.speed)
-    style.curves(axes, "speed [rev/min]", "torque peak [N m]")
-    panels.small_ticks(axes)
+    panels.curves(axes, "speed [rev/min]", "torque peak [N m]")
     axes.plot(speed, without, color=style.RED, linewidth=1.6, label="without device")
     axes.plot(speed, with_device, color=style.BLUE, linewidth=1.6, label="with device", gid="with-device")
     usual = design.spec.speed / math.sqrt(2.0)
     axes.axvspan(0.0, design.unloading.harmful_speed, color=style.LIGHT, alpha=0.45, linewidth=0, zorder=0)
-    axes.axvline(usual, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
-    axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
+    axes.axvline(usual, color=style.GREY, linewidth=0.9, linestyle=style.DASHED)
+    axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=style.DASHED)
     for place, words in ((usual, "n₀/√2"), (design.spec.speed, "n₀")):
         where: dict[str, Any] = {
             "xycoords": ("data", "axes fraction"),
@@ -664,7 +601,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.set_ylim(bottom=0.0)
     lowest = design.spec.operating_speed_min
     if lowest is not None:
-        axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=_DOTTED, label="minimum working speed")
+        axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=style.DOTTED, label="minimum working speed")
     axes.axvspan(-2.0, -1.0, color=style.LIGHT, alpha=0.45, label="harmful")
     panels.extreme(axes, least.place, least.value, above=True, unit=" N m", at=" rev/min")
     panels.legend_under_heading(axes, "Torque on the rocker axis", 2)
@@ -675,10 +612,9 @@ def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
     table = design.table("slider")
     stroke_axis(axes, design, "invariants of the slider")
     for column, color in (("displacement", style.GREEN), ("velocity", style.BLUE), ("acceleration", style.RED)):
-        values = table.data[table.columns.index(column)]
-        axes.plot(table.data[0], values, color=color, linewidth=1.6, label=column)
+        axes.plot(table.data[0], table[column], color=color, linewidth=1.6, label=column)
     axes.axvline(
-        design.motion.slider.middle_place, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="mid-swing"
+        design.motion.slider.middle_place, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label="mid-swing"
     )
     panels.legend_under_heading(axes, "Slider", 2)
 
@@ -717,7 +653,7 @@ def draw_cams(command: str, design: WideSwingDesign) -> Figure:
         cam_panel(axes, design, title, cam, mirror)
         zone_words(axes, cam)
         _slot_panel(made.add_subplot(close[0, i]), design, cam, mirror)
-    legend_row(made.add_subplot(grid[2]), axes)
+    panels.legend_beside(made.add_subplot(grid[2]), axes, **_ROW)
     pressure_panel(made.add_subplot(below[0, 0]), design)
     curvature_panel(made.add_subplot(below[0, 1]), design)
     return made
@@ -749,8 +685,8 @@ def contours_panel(made: Figure, place: Any, design: WideSwingDesign) -> None:
         for cam, frame, color in ((cycle.main, cycle.of_main, style.BLUE), (cycle.back, cycle.of_back, style.GREEN)):
             _contour(axes, cam, frame, color)
         _between(axes, cycle)
-        _finish(axes, design)
-        _legend(made.add_subplot(columns[0, 1]), axes)
+        _shaft(axes, design)
+        panels.legend_beside(made.add_subplot(columns[0, 1]), axes, **_BESIDE)
         return
     columns = place.subgridspec(2, 2, height_ratios=[1.0, 0.08])
     for i, (title, cam, frame) in enumerate(
@@ -763,16 +699,12 @@ def contours_panel(made: Figure, place: Any, design: WideSwingDesign) -> None:
         panels.drawing(axes, title)
         _contour(axes, cam, frame, (style.BLUE, style.GREEN)[i])
         style.area(axes, _whole(cam, frame), color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
-        _finish(axes, design)
-        _legend(made.add_subplot(columns[1, i]), axes, 2)
+        _shaft(axes, design)
+        panels.legend_beside(made.add_subplot(columns[1, i]), axes, **_BESIDE, ncols=2)
 
 
 def _whole(cam: ClosedCam, frame: Any) -> Any:
     return frame(np.concatenate([points for _, points in cam.outline()]))
-
-
-def _xy(points: Any) -> tuple[Any, Any]:
-    return points.real, points.imag
 
 
 def _contour(axes: Axes, cam: ClosedCam, frame: Any, color: str) -> None:
@@ -786,42 +718,20 @@ def _contour(axes: Axes, cam: ClosedCam, frame: Any, color: str) -> None:
     joints = frame(cam.contour(np.array(cam.starts[:4])))
     axes.plot(*_xy(joints), "o", color=style.BLACK, markersize=3.5, zorder=6, label="joint")
     path = frame(cam.pitch(np.linspace(0.0, 2.0 * math.pi, 1441)))
-    axes.plot(*_xy(path), color=style.GREY, linewidth=0.7, linestyle=(0, (5, 3)), zorder=3, label="roller centre")
+    axes.plot(*_xy(path), color=style.GREY, linewidth=0.7, linestyle=style.DASHED, zorder=3, label="roller centre")
 
 
 def _between(axes: Axes, cycle: WholeCycle) -> None:
     """The body of both profiles: metal inside the external and outside the internal one, as far as a rim."""
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path
-
     inside, hollow = _whole(cycle.back, cycle.of_back), _whole(cycle.main, cycle.of_main)
-    rim = 1.08 * float(np.abs(hollow).max())
     style.area(axes, inside, color=style.GREEN, alpha=0.12, linewidth=0, zorder=1)
-    turn = rim * np.exp(2j * math.pi * np.linspace(0.0, 1.0, 361))
-    paths = [Path(np.stack(_xy(z), axis=1), closed=True) for z in (turn, hollow)]
-    look = {"facecolor": style.BLUE, "alpha": 0.10, "linewidth": 0, "zorder": 1}
-    style.cornered(axes, PathPatch(Path.make_compound_path(*paths), **look))
-    axes.plot(*_xy(turn), color=style.BLUE, linewidth=0.8, zorder=2)
-
-
-def _finish(axes: Axes, design: WideSwingDesign) -> None:
-    shaft = design.section.shaft_radius
-    if shaft > 0.0:
-        style.circle(axes, 0j, shaft, color=style.BLACK, linewidth=1.2, hatch="////", zorder=4)
-    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10, zorder=6, label="cam axis")
-
-
-def _legend(axes: Axes, drawing: Axes, columns: int = 1) -> None:
-    axes.set_axis_off()
-    found = dict(zip(*reversed(drawing.get_legend_handles_labels()), strict=True))
-    axes.legend(found.values(), found.keys(), loc="center left", ncols=columns, frameon=False, fontsize=8)
+    _ring(axes, hollow, 1.08 * float(np.abs(hollow).max()))
 
 
 def cycle_panel(axes: Axes, design: WideSwingDesign) -> None:
     """The rocker's angle over a revolution of the cam, the strokes and rests shaded and named."""
     cycle = design.cycle
-    style.curves(axes, "cam angle from the start of the working stroke [deg]", "rocker from mid-swing [deg]")
-    panels.small_ticks(axes)
+    panels.curves(axes, "cam angle from the start of the working stroke [deg]", "rocker from mid-swing [deg]")
     table = cycle.table(720)
     x, y = np.append(table["cam_angle"], 360.0), np.append(table["rocker_angle"], table["rocker_angle"][0])
     axes.plot(x, y, color=style.BLUE, linewidth=1.8, label="rocker")

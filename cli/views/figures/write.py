@@ -82,15 +82,19 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
         CannotWrite - where the folder or the disk does not take the file
         NoSolution - where the figure shows something that the design does not have
     """
+    name, what = design.spec.name, command.replace(" ", "-")
+    return write_figure(lambda: draw(command, design, checks), name, what, options, stem)
+
+
+def write_figure(make: Callable[[], Figure], name: str, what: str, options: Options, stem: str = "") -> Path:
+    """Write the figure that `make` draws as STEM-WHAT.FORMAT into the folder of the options.
+
+    Raises
+        CannotWrite - where the folder or the disk does not take the file
+    """
     ending = options.plot_format.value
-    path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
-    name = design.spec.name
-    write_atomically(
-        path,
-        lambda stream: save(
-            lambda: draw(command, design, checks), name, stream, ending, options.dpi, quiet=options.quiet
-        ),
-    )
+    path = options.out / f"{stem or safe_stem(name)}-{what}.{ending}"
+    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi, quiet=options.quiet))
     return path
 
 

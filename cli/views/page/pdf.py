@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import io
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.render.numbers import drawn, number, quiet, readable_rows, scales, thinning
+from gearlink.cli.views.page.sections import headings, shown_rows
 from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 _A4 = (8.27, 11.69)
 _ROWS, _LETTERS, _SIZE = 84, 108, 7.6
 """Lines of a page, letters of a line, and the size of the letters [pt]."""
-_MOST_ROWS = 37
 _RED = "#C00000"
 Line = tuple[str, str]
 """Words and their look: "" plain, "bold", "head", "fail"."""
@@ -108,15 +107,8 @@ def _results(report: Report) -> Iterator[Line]:
 
 def _table(table: Table, report: Report) -> Iterator[Line]:
     """A table in strips that are as wide as the page, its first column in each."""
-    count = len(table.data[0])
-    in_words = count > 0 and isinstance(table.data[0][0], str)
-    step = 1 if in_words else max(1, math.ceil(count / _MOST_ROWS))
-    step = next((each for each in (1, 2, 5, 10, 20, 30) if each >= step), step)
+    step, heads = shown_rows(table), headings(table)
     cells = [[cell.replace("\n", " ") for cell in row] for row in readable_rows(table, step, scales(report))]
-    heads = [
-        f"{name.replace('_', ' ')}" + (f" [{unit}]" if unit not in ("", "1") else "")
-        for name, unit in zip(table.columns, table.units, strict=True)
-    ]
     lines = [head.split(" ") for head in heads]
     widths = [
         min(max(*(len(word) for word in lines[i]), *(len(row[i]) for row in cells), 1) + 2, _LETTERS // 2)

@@ -239,18 +239,27 @@ def _results(report: Report) -> Iterator[str]:
         yield _data(each, scales(report))
 
 
-def _data(given: Table, scale: Mapping[str, float]) -> str:
+def shown_rows(given: Table) -> int:
+    """Every how many rows of a table a report shows; of words all, for every row says something else."""
     count = len(given.data[0])
-    in_words = count > 0 and isinstance(given.data[0][0], str)  # every row of such a table says something else
-    step = 1 if in_words else max(1, math.ceil(count / _MOST_ROWS))
-    step = next((s for s in (1, 2, 5, 10, 20, 30) if s >= step), step)
+    step = 1 if count > 0 and isinstance(given.data[0][0], str) else max(1, math.ceil(count / _MOST_ROWS))
+    return next((each for each in (1, 2, 5, 10, 20, 30) if each >= step), step)
+
+
+def headings(given: Table) -> list[str]:
+    """The columns of a table in words, with their units."""
+    return [
+        f"{name.replace('_', ' ')} [{unit}]" if unit not in ("", "1") else name.replace("_", " ")
+        for name, unit in zip(given.columns, given.units, strict=True)
+    ]
+
+
+def _data(given: Table, scale: Mapping[str, float]) -> str:
+    step = shown_rows(given)
     cells = readable_rows(given, step, scale)
     if step == 1:
         given, cells = with_intervals(given, cells)
-    heads = [
-        f"{c.replace('_', ' ')} [{u}]" if u not in ("", "1") else c.replace("_", " ")
-        for c, u in zip(given.columns, given.units, strict=True)
-    ]
+    heads = headings(given)
     note = f'<p class="note">{thinning(step, given)}</p>' if step > 1 else ""
     title = escape(given.name.replace("_", " "))
     return f"<h3>{title}</h3>{note}" + table(heads, cells, numeric=range(len(heads)))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -25,11 +27,13 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 from gearlink.core.parts.gears.outline.rack_profile import RackGeometry, RackProfile
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
+    from gearlink.cli.views.scenes.of_motion import Positions
     from gearlink.core.parts.gears.rack import RackMesh
 
 
@@ -75,6 +79,50 @@ def gear(
     else:
         body = replace(look, outline=outline, repeats=teeth)
     return [body, *_holes(look, pair.root_radius[number], loop_turns)]
+
+
+class Toothed(NamedTuple):
+    """A gear of a train: the link on which it is, its axis there, colour, label and name, and whether it is a ring.
+
+    rim : outer radius of a ring, where the file gives it [mm]
+    """
+
+    link: str
+    axis: complex | str
+    color: str
+    label: str
+    name: str
+    ring: bool = False
+    rim: float | None = None
+
+
+def train(here: Positions, meshes: Sequence[GearPair], gears: Sequence[Toothed]) -> list[list[Body]]:
+    """The bodies of gears that mesh one after the other, each pair in one of the meshes.
+
+    A space of the first gear, or a tooth of a ring, lies on the x axis of its link; all others mesh with it.
+    """
+    found: list[list[Body]] = []
+    space, before, whole = 0.0, 0j, here.whole
+    there_and_back = here.motion.input.turns is None
+    for k, each in enumerate(gears):
+        pair, turns = meshes[max(k - 1, 0)], whole.turn(each.link)
+        axis = complex(whole.at(each.link, each.axis)[0])
+        space = _mated(pair, gears[k - 1].ring, cmath.phase(axis - before), space) if k else float(turns[0])
+        number = int(each.ring) if pair.internal else min(k, 1)
+        loop_turns = 0.0 if there_and_back else float(turns[-1] - turns[0]) / TURN
+        turn = space + here.turn(each.link) - turns[0]
+        place, rim = here.at(each.link, each.axis), each.rim
+        found.append(gear(pair, number, place, turn, loop_turns, each.color, each.label, each.name, rim))
+        before = axis
+    return found
+
+
+def _mated(pair: GearPair, from_ring: bool, line: float, space: float) -> float:
+    """Where a gear has a space, or a ring a tooth, by that of the gear before it in the direction of the line."""
+    one, other = (abs(z) for z in pair.teeth)
+    if not pair.internal:
+        return float(driven_turn((one, other), line, space))
+    return float(ring_turn((other, one), line, space) if from_ring else ring_turn((one, other), line + math.pi, space))
 
 
 def _teeth(pair: GearPair, number: int) -> Points | None:

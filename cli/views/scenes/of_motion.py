@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +16,7 @@ from gearlink.cli.views.scenes.scene import (
     GREY,
     ORANGE,
     PURPLE,
+    Band,
     Body,
     Chain,
     Chart,
@@ -25,45 +29,170 @@ from gearlink.cli.views.scenes.scene import (
     Scene,
     circle,
     pale,
+    track,
 )
 from gearlink.core.mechanism.joints import Contact, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from gearlink.core.mechanism.motion import Course, Input
+    from gearlink.core.mechanism.motion import Course, Input, Motion
 
 _COLORS = (BLUE, GREEN, PURPLE, ORANGE)
 _SLIDER = 0.07
 """Of the size of the mechanism: half the width of a slider."""
 
 
+class Seen(NamedTuple):
+    """What moves in the end, as a chart and the values beside a picture show it."""
+
+    course: Course
+    color: str
+    unit: str = "deg"
+
+    def at(self, motion: Motion, q: Reals) -> Reals:
+        """Values at inputs [deg or mm]."""
+        values = self.course.rates(motion, q, 0)[0]
+        return np.degrees(values) if self.unit == "deg" else np.asarray(values)
+
+
+@dataclass(frozen=True)
+class Positions:
+    """The links of a motion where a scene shows them.
+
+    Fields
+        motion : Motion
+        inputs : (N,) array [rad or mm]
+    """
+
+    motion: Motion
+    inputs: Reals
+
+    @classmethod
+    def of(cls, design: Any, fraction: Reals) -> Positions:
+        """Over fractions of the loop: straight through a period, there and back over a range."""
+        return cls(design.moving, inputs(design.moving.input, fraction))
+
+    @cached_property
+    def now(self) -> Mechanism:
+        """The links at the positions."""
+        return self.motion.at(self.inputs, 0)
+
+    def at(self, link: str, point: complex | str = 0j) -> Points:
+        """The track of a point of a link, or of the frame [mm]."""
+        return track(point, self.inputs) if link == FRAME else self.now.links[link].at(point).value
+
+    def turn(self, link: str) -> Reals:
+        """Angles of a link, 0 of the frame [rad]."""
+        return np.zeros(self.inputs.shape) if link == FRAME else self.now.links[link].turn.value
+
+    @cached_property
+    def whole(self) -> Positions:
+        """From the start of the loop to its end, as charts and paths show it."""
+        given = self.motion.input
+        return Positions(self.motion, np.linspace(given.start, given.end, 361))
+
+    def body(self, link: str, outline: Points, color: str, share: float = 0.25, **look: Any) -> Body:
+        """An outline on a link, filled with a share of its colour."""
+        fill = pale(color, share) if share else ""
+        return Body(outline=outline, place=self.at(link), turn=self.turn(link), color=color, **{"fill": fill} | look)
+
+    @cached_property
+    def marks(self) -> tuple[Mark, ...]:
+        """The pins by name; of several on one axis the first."""
+        found: dict[complex, Mark] = {}
+        for each in _pins(self.now):
+            found.setdefault(complex(each.at[0]), Mark(each.at, each.name, FRAME in (each.first, each.second)))
+        return tuple(found.values())
+
+    @property
+    def chain(self) -> Chain:
+        """The links of a mechanism whose pins follow each other."""
+        return Chain(joints=tuple(mark.point for mark in self.marks))
+
+    def scene(
+        self,
+        parts: Sequence[Part],
+        seen: Mapping[str, Seen],
+        ylabel: str,
+        *,
+        over: str = "",
+        marked: tuple[Band, ...] = (),
+        marks: tuple[Mark, ...] | None = None,
+        values: Mapping[str, tuple[str, Reals]] | None = None,
+    ) -> Scene:
+        """The scene with these parts, and its chart over the input.
+
+        Parameters
+            seen : what the chart shows, by the words of each curve
+            over : words of the input, where they are not those of its column
+            marked : stretches of the chart
+            marks : letters, where they are not those of the pins
+            values : units and values beside the picture by their words, where they are not those of the curves
+        """
+        given = self.motion.input
+        words = over or given.column.replace("_", " ")
+        unit, sign = ("deg", "°") if given.unit == "rad" else ("mm", " mm")
+        degree = np.degrees if given.unit == "rad" else np.asarray
+        whole = self.whole.inputs
+        curves = tuple(
+            Curve(name, each.color, each.at(self.motion, whole), each.at(self.motion, self.inputs))
+            for name, each in seen.items()
+        )
+        if values is None:
+            values = {
+                curve.label: ("°" if each.unit == "deg" else f" {each.unit}", curve.now)
+                for curve, each in zip(curves, seen.values(), strict=True)
+            }
+        chart = Chart(f"{words} [{unit}]", ylabel, degree(whole), degree(self.inputs), curves, marked)
+        told = {words.split()[0]: (sign, degree(self.inputs)), **values}
+        return Scene(
+            parts=tuple(parts),
+            marks=self.marks if marks is None else marks,
+            chart=chart,
+            readouts=tuple(Readout(name, each, track) for name, (each, track) in told.items()),
+        )
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where a scene has what a motion has: z -> turn z + shift.
+
+    Fields
+        inputs : function of fractions of the loop - inputs of the motion
+        motion : that of the design, or the one of which its scene is drawn where the file leaves places free
+    """
+
+    inputs: Callable[[Reals], Reals]
+    motion: Motion
+    turn: complex = 1.0
+    shift: complex = 0.0
+
+    def at(self, points: Points) -> Points:
+        """Points of the motion in the scene."""
+        return np.asarray(self.along(points) + self.shift)
+
+    def back(self, shift: complex) -> complex:
+        """A direction of the scene in the motion."""
+        return shift / self.turn
+
+    def along(self, vector: Points) -> Points:
+        """Directions of the motion in the scene."""
+        return np.asarray(self.turn * vector)
+
+
+def frame(design: Any) -> Frame:
+    """Where scenes stand that show their motion as it is."""
+    return Frame(partial(inputs, design.moving.input), design.moving)
+
+
 def build(design: Any, fraction: Reals) -> Scene:
-    """Positions over fractions of the loop: straight through a period, there and back over a range."""
-    motion = design.moving
-    q = inputs(motion.input, fraction)
-    now = motion.at(q, 0)
-    output = motion.outputs[0]
-    whole = np.linspace(motion.input.start, motion.input.end, 361)
-    y, here = (_shown(output.course, output.course.rates(motion, each, 0)[0]) for each in (whole, q))
-    words = motion.input.column.replace("_", " ")
-    unit = " [deg]" if motion.input.unit == "rad" else " [mm]"
-    degree = np.degrees if motion.input.unit == "rad" else np.asarray
-    measure = "deg" if output.course.unit == "rad" else output.course.unit
-    return Scene(
-        parts=(*_cams(now), *_gears(now), *_lines(now, motion.at(whole, 0)), *_links(now), *_sliders(now)),
-        marks=_marks(now),
-        chart=Chart(
-            words + unit,
-            f"{output.name} [{measure}]",
-            degree(whole),
-            degree(q),
-            (Curve(output.name, BLUE, y, here),),
-        ),
-        readouts=(
-            Readout(words.split()[0], "°" if motion.input.unit == "rad" else " mm", degree(q)),
-            Readout(output.name, "°" if measure == "deg" else f" {measure}", here),
-        ),
-    )
+    """The scene of a motion: cams, gears, slots, links and slides, and its first output over the input."""
+    here = Positions.of(design, fraction)
+    now, whole = here.now, here.whole.now
+    name, course, _ = here.motion.outputs[0]
+    measure = "deg" if course.unit == "rad" else course.unit
+    parts = (*_cams(now), *_gears(now), *_lines(now, whole), *_links(now), *_sliders(now))
+    return here.scene(parts, {name: Seen(course, BLUE, measure)}, f"{name} [{measure}]")
 
 
 def inputs(given: Input, fraction: Reals) -> Reals:
@@ -71,10 +200,6 @@ def inputs(given: Input, fraction: Reals) -> Reals:
     if given.turns is not None:
         return np.asarray(given.start + (given.end - given.start) * fraction)
     return np.asarray(given.start + 0.5 * (given.end - given.start) * (1.0 - np.cos(2.0 * math.pi * fraction)))
-
-
-def _shown(course: Course, values: Reals) -> Reals:
-    return np.degrees(values) if course.unit == "rad" else np.asarray(values)
 
 
 def _pins(mechanism: Mechanism) -> list[Pin]:
@@ -189,11 +314,3 @@ def _disc(mechanism: Mechanism, name: str, center: Points, radius: float) -> Bod
     outline = np.concatenate([[0.0], circle(radius)])
     color = GREY if link is None else ORANGE
     return Body(outline=outline, place=np.asarray(center), turn=turn, color=color, fill=pale(color, 0.25), name=name)
-
-
-def _marks(mechanism: Mechanism) -> tuple[Mark, ...]:
-    """The pins by name; of several on one axis the first."""
-    found: dict[complex, Mark] = {}
-    for each in _pins(mechanism):
-        found.setdefault(complex(each.at[0]), Mark(each.at, each.name, FRAME in (each.first, each.second)))
-    return tuple(found.values())

@@ -8,6 +8,7 @@ The colours of all pictures stay apart for colour-blind readers and in grey prin
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -219,6 +220,17 @@ class Scene:
     """First part of the mechanism, the one after its last, its number of marks; None: all belong to it."""
 
 
+def round_below(value: float) -> float:
+    """The greatest of 1, 2, 5 times a power of ten that is no more than a number.
+
+    Example
+        >>> round_below(370.0), round_below(1.0)
+        (200.0, 1.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    return max((step * power for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-12)), default=power)
+
+
 def track(value: Any, fraction: Reals) -> Points:
     """A point, standing or moving, as a track."""
     return np.broadcast_to(np.asarray(value, dtype=np.complex128), fraction.shape)
@@ -234,6 +246,20 @@ def placed(body: Body, i: int) -> Points:
     return np.asarray(body.place[i] + body.outline * np.exp(1j * body.turn[i]))
 
 
+def points_of(parts: Iterable[Part]) -> Points:
+    """All points that parts have in any position; what is not there has none."""
+    found: list[Points] = [np.zeros(0, dtype=np.complex128)]
+    for part in parts:
+        if isinstance(part, Body):
+            found += [placed(part, i) for i in range(len(part.place))]
+        elif isinstance(part, Chain):
+            found += part.joints
+        else:
+            found.append(part.points if isinstance(part, Line) else part.start + part.vector)
+    whole = np.concatenate(found)
+    return np.asarray(whole[np.isfinite(whole)])
+
+
 def circle(radius: float, count: int = 72) -> Points:
     """A closed circle about the origin."""
     return np.asarray(radius * np.exp(1j * TURN * np.arange(count + 1) / count))
@@ -242,12 +268,6 @@ def circle(radius: float, count: int = 72) -> Points:
 def fixed_circle(center: complex, radius: float, name: str = "") -> Line:
     """A dashed circle that stands still."""
     return Line(points=center + circle(radius, 120), dashed=True, name=name)
-
-
-def standing(points: Points, fraction: Reals, color: str, name: str = "") -> Body:
-    """A line that stands still in front of what is drawn before it."""
-    level = np.zeros_like(fraction)
-    return Body(outline=points, place=track(0.0, fraction), turn=level, color=color, width=1.5, name=name)
 
 
 def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...]:
@@ -273,10 +293,10 @@ def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...
     return tuple(found)
 
 
-def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str) -> Body:
+def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str, name: str = "") -> Body:
     """A plain disc, such as a roller: it looks the same at every revolution."""
     at, level = track(place, fraction), np.zeros_like(fraction)
-    return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0)
+    return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0, name=name)
 
 
 def block(place: Points, width: float, height: float, color: str, label: str = "", *, fill: str = "") -> Body:

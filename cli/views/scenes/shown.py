@@ -12,7 +12,6 @@ import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -21,6 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from gearlink.cli.views.scenes import linkages, of_motion
+from gearlink.cli.views.scenes.of_motion import Frame
 from gearlink.cli.views.scenes.scene import (
     BLACK,
     GREEN,
@@ -42,9 +42,9 @@ from gearlink.cli.views.scenes.scene import (
     Scene,
     circle,
     drawn,
-    placed,
+    points_of,
+    round_below,
 )
-from gearlink.core.base.design import UnknownName
 from gearlink.core.base.errors import GearlinkError, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism import vectors
@@ -53,8 +53,8 @@ from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Check, Table
-    from gearlink.core.mechanism.motion import Input, Motion
+    from gearlink.core.base.report import Check
+    from gearlink.core.mechanism.motion import Input
     from gearlink.core.numerics.arrays import Mask
     from gearlink.core.studies.clearance import Clearance, Layout
 
@@ -145,15 +145,11 @@ _LONGEST, _GHOSTS, _APART = 0.28, 4, 1.0 / 24.0
 _SAMPLES, _FAR = 180, 1.15
 _BESIDE = 0.06
 """Of the size of the drawing: numbers of a path that are nearer to each other are one text."""
-_PROBES, _FEW = 15, 4
-_OVER_INPUT = ("motion", "path", "function")
-"""Tables that have the transmission angle over the input."""
+_PROBES = 15
 _COLORS = {"velocity": GREEN, "acceleration": PURPLE, "force": RED}
 _NEAR = 1e-4
 """Of the size of the drawing, less than the width of a line: a direction of the file has a few digits."""
 _OFF = complex(math.nan, math.nan)
-_IN_RADIANS = {"°": math.radians(1.0), "": TURN}
-"""Units of the first value of a scene, degrees or revolutions."""
 _DEGREES = re.compile(r"(-?\d[\d.]*(?:e[-+]?\d+)?) deg")
 
 
@@ -190,94 +186,29 @@ def wishes(text: str) -> tuple[Wish, ...]:
     return tuple(found)
 
 
-@dataclass(frozen=True)
-class Frame:
-    """Where a scene has what the motion has: z -> turn z + shift, of a mirrored one turn conj(z) + shift.
-
-    Fields
-        inputs : function of fractions of the loop - inputs of the motion
-        motion : that of the design, or the one of which its scene is drawn where the file leaves places free
-    """
-
-    inputs: Callable[[Reals], Reals]
-    motion: Motion
-    turn: complex = 1.0
-    shift: complex = 0.0
-    mirrored: bool = False
-
-    def at(self, points: Points) -> Points:
-        """Points of the motion in the scene."""
-        return np.asarray(self.along(points) + self.shift)
-
-    def back(self, shift: complex) -> complex:
-        """A direction of the scene in the motion."""
-        found = shift / self.turn
-        return found.conjugate() if self.mirrored else found
-
-    def along(self, vector: Points) -> Points:
-        """Directions of the motion in the scene."""
-        return np.asarray(self.turn * (np.conj(vector) if self.mirrored else vector))
-
-
 # Where the scene stands
 
 
-def _frames(one: Points, other: Points) -> Iterator[tuple[complex, complex, bool]]:
-    """Rigid motions that take one list of points to another, by least squares; the same place first."""
-    yield 1.0, 0.0, False
-    for mirrored in (False, True):
-        given = np.conj(one) if mirrored else one
-        from_, to = given - given.mean(), other - other.mean()
-        turn = complex((np.conj(from_) * to).sum())
-        if abs(turn) > 0.0:
-            turn /= abs(turn)
-            yield turn, complex(other.mean() - turn * given.mean()), mirrored
-
-
 def frame_of(design: Any, build: Maker) -> Frame | None:
-    """Where a scene stands; None where no rigid motion takes all joints of the motion to those of the scene.
+    """Where a scene stands: as its module says, else where the motion does; None where its joints stand elsewhere.
 
     Notes
-        Accepted only if something that moves agrees: a joint, or a body that turns with its link. Of a scene that goes
-        on beyond the range of the motion the positions within it count.
+        Of a scene that goes on beyond the range of the motion the positions within it count.
     """
-    found = (_frame_in(design, build, motion) for motion in _motions(design, build))
-    return next((each for each in found if each is not None), None)
-
-
-def _motions(design: Any, build: Maker) -> Iterator[Motion]:
-    """The motion of a design, and the one that its scene names where the file does not say where all of it stands."""
-    yield design.moving
-    drawn: Callable[[Any], Motion | None] | None = getattr(sys.modules[build.__module__], "as_drawn", None)
-    other = None if drawn is None else drawn(design)
-    if other is not None:
-        yield other
-
-
-def _frame_in(design: Any, build: Maker, motion: Motion) -> Frame | None:
+    said: Callable[[Any], Frame] | None = getattr(sys.modules[build.__module__], "frame", None)
+    found = of_motion.frame(design) if said is None else said(design)
     fraction = np.linspace(0.0, 0.93, _PROBES)
-    scene = build(design, fraction)
-    for inputs in _inputs(design, build, scene):
-        q = inputs(fraction)
-        inside = within(motion.input, q)
-        if inside.sum() < _FEW:
-            continue
-        try:
-            mechanism = motion.at(q[inside], 0)
-        except NoSolution:
-            continue
-        pins = {each.name: each.at for each in mechanism.connections if isinstance(each, Pin)}
-        pairs = [(pins[mark.text], np.asarray(mark.point)[inside]) for mark in scene.marks if mark.text in pins]
-        one = np.concatenate([pair[0] for pair in pairs]) if pairs else np.zeros(1, dtype=complex)
-        other = np.concatenate([pair[1] for pair in pairs]) if pairs else np.zeros(1, dtype=complex)
-        for turn, shift, mirrored in _frames(one, other):
-            found = Frame(inputs, motion, turn, shift, mirrored)
-            size = 1.0 + float(np.abs(one - one.mean()).max())
-            if float(np.abs(found.at(one) - other).max()) > _NEAR * size:
-                continue
-            if _moves(found, q[inside], mechanism, _Tracks.of(scene, inside), size):
-                return found
-    return None
+    q = found.inputs(fraction)
+    inside = within(found.motion.input, q)
+    try:
+        mechanism = found.motion.at(q[inside], 0)
+    except NoSolution:
+        return None
+    pins = {each.name: found.at(each.at) for each in mechanism.connections if isinstance(each, Pin)}
+    known = [mark for mark in build(design, fraction).marks if mark.text in pins]
+    off = max((float(np.abs(pins[mark.text] - mark.point[inside]).max()) for mark in known), default=0.0)
+    size = max((float(np.abs(at - at[0]).max()) for at in pins.values()), default=0.0)
+    return found if off <= _NEAR * (1.0 + size) else None
 
 
 def within(given: Input, q: Reals) -> Mask:
@@ -285,57 +216,6 @@ def within(given: Input, q: Reals) -> Mask:
     if given.turns is not None:
         return np.ones(q.shape, dtype=bool)
     return np.asarray((q >= given.start - 1e-9) & (q <= given.end + 1e-9))
-
-
-def _inputs(design: Any, build: Maker, scene: Scene) -> Iterator[Callable[[Reals], Reals]]:
-    """How inputs may run over the loop: over the period, as the scene's first value says, as its first gear turns."""
-    given = design.moving.input
-    yield lambda fraction: of_motion.inputs(given, fraction)
-    if scene.readouts and (unit := _IN_RADIANS.get(scene.readouts[0].unit)):
-        yield lambda fraction: unit * build(design, fraction).readouts[0].values
-    gears = [i for i, part in enumerate(scene.parts) if isinstance(part, Body) and part.pitch]
-    if gears:
-
-        def by_gear(fraction: Reals) -> Reals:
-            turn = build(design, np.append(0.0, fraction)).parts[gears[0]].turn  # type: ignore[union-attr]
-            return np.asarray(given.start + turn[1:] - turn[0])
-
-        yield by_gear
-
-
-class _Tracks(NamedTuple):
-    """What moves in a scene: places of joints and bodies, and how far bodies have turned [rad]."""
-
-    places: list[Points]
-    turns: list[Reals]
-
-    @classmethod
-    def of(cls, scene: Scene, inside: Mask) -> _Tracks:
-        bodies = [part for part in scene.parts if isinstance(part, Body)]
-        places = [np.asarray(mark.point) for mark in scene.marks] + [np.asarray(body.place) for body in bodies]
-        places += [np.asarray(joint) for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
-        return cls([each[inside] for each in places], [body.turn[inside] for body in bodies if body.repeats])
-
-
-def _moves(frame: Frame, q: Reals, mechanism: Mechanism, shown: _Tracks, size: float) -> bool:
-    """Whether something that moves in the motion moves so in the scene; what turns evenly tells where all does."""
-    tracks = [np.asarray(each.at) for each in mechanism.connections if hasattr(each, "at")]
-    tracks += [link.origin.value for link in mechanism.links.values()]
-    for track in tracks:
-        if float(np.ptp(track.real) + np.ptp(track.imag)) <= _NEAR:
-            continue
-        # a roller may be that of one cam, then that of another
-        apart = np.min([np.abs(frame.at(track) - other) for other in shown.places], axis=0)
-        if float(apart.max()) <= _NEAR * size:
-            return True
-    sense = -1.0 if frame.mirrored else 1.0
-    turns = [sense * (link.turn.value - link.turn.value[0]) for link in mechanism.links.values()]
-    uneven = [turn for turn in turns if float(np.abs(turn - (q - q[0]) * (turn[-1] / (q[-1] - q[0]))).max()) > 1e-9]
-    return any(
-        float(np.ptp(turn)) > 1e-3 and float(np.abs(turn - (body - body[0])).max()) <= _NEAR
-        for turn in uneven or turns
-        for body in shown.turns
-    )
 
 
 # Scenes with more on them
@@ -373,8 +253,7 @@ def _base(design: Any) -> tuple[Maker, Frame]:
     frame = frame_of(design, own)
     if frame is not None:
         return own, frame
-    given = design.moving.input
-    return of_motion.build, Frame(lambda each: of_motion.inputs(given, each), design.moving)
+    return of_motion.build, of_motion.frame(design)
 
 
 def possible(design: Any) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -428,11 +307,8 @@ def _reach(scene: Scene) -> float:
 
 
 def _points(scene: Scene) -> Points:
-    bodies = [part for part in scene.parts if isinstance(part, Body)]
-    points = [placed(body, i) for body in bodies for i in range(len(body.place))]
-    points += [np.asarray(joint) for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
-    points += [np.asarray(mark.point) for mark in scene.marks]
-    return np.concatenate(points)
+    bodies = points_of(part for part in scene.parts if isinstance(part, Body | Chain))
+    return np.concatenate([bodies, *(mark.point for mark in scene.marks)])
 
 
 Found: TypeAlias = tuple[list[Part], list[Mark], list[Key]]
@@ -532,7 +408,7 @@ class Picture:
                   name=f"{what} {name}")
             for name, (at, vector) in tracks.items()
         ]  # fmt: skip
-        round_ = round_below(most)
+        round_ = round_below(0.5 * most)
         return parts, [], [Key(f"{what} {round_:g} {unit}", _COLORS[what], scale * round_)]
 
     def _vectors(self, wish: Wish) -> Found:
@@ -683,17 +559,6 @@ def _grey(k: int) -> str:
     return f"#{level:02x}{level:02x}{level:02x}"
 
 
-def round_below(most: float) -> float:
-    """The greatest of 1, 2, 5 times a power of ten that is no more than half of a number.
-
-    Example
-        >>> round_below(740.0), round_below(2.1)
-        (200.0, 1.0)
-    """
-    power = 10.0 ** math.floor(math.log10(0.5 * most))
-    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= 0.5 * most * (1.0 + 1e-12))
-
-
 def speed_of(design: Any) -> float | None:
     """Speed of the input [rad/s, mm/s], where the file has one."""
     found, given = getattr(design, "angular_speed", None), getattr(design.spec, "speed", None)
@@ -798,7 +663,7 @@ class _Failing:
             yield mask, parts
 
     def _transmission(self) -> Told:
-        """The links in red where the transmission angle of the table over the input is below its limit."""
+        """The links in red where the transmission angle is below its limit."""
         q = self._inputs
         angle = None if q is None else self._least_transmission(q)
         if angle is None:
@@ -814,30 +679,13 @@ class _Failing:
         )
 
     def _least_transmission(self, q: Reals) -> Reals | None:
-        """The least transmission angle at inputs [deg]: of the motion's own pins, else of a table over the input."""
+        """The least transmission angle at inputs [deg], infinite beyond the range of the motion."""
         motion = self.design.moving
+        if motion.transmission is None:
+            return None
         inside = within(motion.input, q)
-        there = motion.at(np.where(inside, q, motion.input.start), 1) if motion.transmission else None
-        if there is not None:
-            found = [*vectors.transmission_angles(there, motion.transmission).values()]
-            return np.where(inside, np.degrees(np.min(found, axis=0)), np.inf) if found else None
-        table = self._over_input()
-        if table is None:
-            return None
-        x, y = np.asarray(table.data[0], dtype=float), np.asarray(table["transmission_angle"], dtype=float)
-        period = math.degrees(motion.input.end) if motion.input.turns else None
-        return np.asarray(np.interp(np.degrees(q), x, y, period=period))
-
-    def _over_input(self) -> Table | None:
-        """A table of the design that has the transmission angle over the input of the motion."""
-        if not has_motion(self.design):
-            return None
-        for name in _OVER_INPUT:
-            with suppress(NoSolution, UnknownName):  # of another form of the file
-                table: Table = self.design.table(name)
-                if table.columns[0] == self.design.moving.input.column and "transmission_angle" in table.columns:
-                    return table
-        return None
+        angle = motion.transmission.rates(motion, np.where(inside, q, motion.input.start), 1)[0]
+        return np.where(inside, np.degrees(angle), np.inf)
 
     def _pressure(self) -> Told:
         """A red ring about the roller where the pressure angle is above its limit."""

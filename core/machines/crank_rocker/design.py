@@ -344,7 +344,8 @@ def motion(design: CrankRocker) -> Motion:
         return Mechanism(links, [*four_bar_pins(links)], "crank")
 
     inputs = Input("crank_angle") if span is None else Input("crank_angle", start=span[0], end=span[1], turns=None)
-    return Motion(make, inputs, (Output("Rocker CD", rocker(design)),))
+    outputs = (Output("Rocker CD", rocker(design)),)
+    return Motion(make, inputs, outputs, transmission=between("coupler", "rocker"))
 
 
 def rocker(design: CrankRocker) -> Course:

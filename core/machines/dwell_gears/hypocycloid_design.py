@@ -34,6 +34,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, standing, steady
+from gearlink.core.mechanism.vectors import least_transmission
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.parts.gears.codes import DWELL_QUALITY
@@ -1027,7 +1028,7 @@ def motion(design: HypocycloidDwell) -> Motion:
         return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})
 
     outputs = (Output("Slider F, outwards", outwards(design)),)
-    return Motion(make, Input("carrier_angle"), outputs, transmission=("F",))
+    return Motion(make, Input("carrier_angle"), outputs, transmission=least_transmission("F"))
 
 
 def _arm_motion(design: HypocycloidDwell) -> Motion:

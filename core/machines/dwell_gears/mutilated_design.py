@@ -24,7 +24,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import between, turned
 from gearlink.core.mechanism.joints import Connection, Pin, ToothDrive
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Input, Motion, Output
@@ -485,7 +485,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
-        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+        from gearlink.core.mechanism.courses import Shown, motion_table
 
         count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)
         rows = row_numbers(samples, cycles * count)
@@ -622,7 +622,8 @@ def motion(design: MutilatedGearDwell) -> Motion:
     if linkage is not None:
         outputs = Output("Rocker CD", turned("rocker")), *outputs
     turns = design.cycle_turns * design.cycles_to_repeat
-    return Motion(make, Input(end=TURN * turns, turns=None, joints=_joints(design)), outputs)
+    given = Input(end=TURN * turns, turns=None, joints=_joints(design))
+    return Motion(make, given, outputs, transmission=None if linkage is None else between("coupler", "rocker"))
 
 
 def _by_input(rates: Rates[Any], rate: Reals) -> list[Any]:

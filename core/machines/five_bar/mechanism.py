@@ -14,11 +14,12 @@ import numpy as np
 
 from gearlink.core.machines.five_bar.path import coupler_angles
 from gearlink.core.mechanism.closures import dyad
-from gearlink.core.mechanism.courses import coordinate, turned
+from gearlink.core.mechanism.courses import between, coordinate, turned
 from gearlink.core.mechanism.joints import Connection, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
+from gearlink.core.mechanism.vectors import least_transmission
 
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.design import GearedFiveBar
@@ -92,7 +93,8 @@ def motion(design: GearedFiveBar) -> Motion:
         return Mechanism(links, joints, "input")
 
     outputs = tuple(Output(f"Point M, {name}", coordinate("coupler", "M", along)) for name, along in _AXES)
-    return Motion(make, Input(end=bar.period, turns=bar.period_turns), outputs)
+    given = Input(end=bar.period, turns=bar.period_turns)
+    return Motion(make, given, outputs, transmission=between("coupler", "follower"))
 
 
 _AXES = (("x", 1.0 + 0j), ("y", 1j))
@@ -110,7 +112,7 @@ def function_motion(design: GearedFiveBar, bar: FunctionFiveBar, start: float, e
         return Mechanism(links, joints, "input")
 
     outputs = (Output("Output link ED", turned("output")),)
-    return Motion(make, Input(start=start, end=end, turns=None), outputs, transmission=("D",))
+    return Motion(make, Input(start=start, end=end, turns=None), outputs, transmission=least_transmission("D"))
 
 
 def _rolling(design: GearedFiveBar, name: str = "") -> tuple[float, float, float]:

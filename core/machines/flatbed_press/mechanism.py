@@ -22,6 +22,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, from_start, mixed, standing, steady
+from gearlink.core.mechanism.vectors import least_transmission
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.mechanism import turns
 
@@ -48,7 +49,7 @@ def motion(design: FlatbedPress) -> Motion:
     press = _Press(design)
     zone = (("sync", design.sync_start, design.sync_end),)
     outputs = Output("Bed", bed(design), press.phases or zone), Output("Cylinder surface", cylinder(design), zone)
-    return Motion(press.at, Input(joints=press.joints), outputs, transmission=("C", "M", "F"))
+    return Motion(press.at, Input(joints=press.joints), outputs, transmission=least_transmission("C", "M", "F"))
 
 
 def bare(design: FlatbedPress) -> FlatbedPress:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from gearlink.core.machines.planar.outputs import moved, point_output
+from gearlink.core.machines.planar.outputs import moved, point_output, transmission
 from gearlink.core.machines.planar.structure import Driven, GearJoint, LineJoint, PinJoint, RackJoint, Structure
 from gearlink.core.mechanism.dual import Shift, elements_at
 from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
@@ -46,7 +46,8 @@ def motion(design: PlanarMechanism) -> Motion:
         parts = moved(structure, name)
         outputs += [Output(each.name.replace("_", " ") if len(parts) > 1 else name, each.course(structure.names))
                     for each in parts]  # fmt: skip
-    return Motion(make, given, tuple(outputs))
+    least = transmission(structure, course.dyads) if course.dyads else None
+    return Motion(make, given, tuple(outputs), transmission=least)
 
 
 def mechanism(course: Followed, q: Reals, order: int, side: int = 1) -> Mechanism:

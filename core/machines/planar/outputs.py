@@ -201,7 +201,7 @@ def motion(design: PlanarMechanism, samples: int | None = None) -> Table:
         columns = [[*part.shown(structure.names, 2)] for part in parts]
         shown += [each for orders in zip(*columns, strict=True) for each in orders]
     if design.course.dyads:
-        shown.append(Shown("transmission_angle", _transmission(structure, design.course.dyads)))
+        shown.append(Shown("transmission_angle", transmission(structure, design.course.dyads)))
     return _made(design, "motion", shown, samples)
 
 
@@ -278,7 +278,7 @@ def _in_rad(design: PlanarMechanism, rows: Any) -> Reals:
     return np.radians(rows) if design.moving.input.unit == "rad" else np.asarray(rows)
 
 
-def _transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
+def transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
     """The minimum transmission angle of all dyads."""
 
     from gearlink.core.mechanism.motion import Course

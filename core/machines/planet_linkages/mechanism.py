@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import between, turned
 from gearlink.core.mechanism.joints import Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
@@ -92,4 +92,5 @@ def _motion(design: Any, carrier: str, output_pin: str, internal: bool) -> Motio
         mesh = Mesh("mesh_25", "output", "coupler", center, holder.unit, abs(r5), r2, tangent, internal, carrier)
         return Mechanism(links, [*pins, Pin(output_pin, FRAME, "output", center), mesh], "crank")
 
-    return Motion(make, Input("crank_angle"), (Output("Output gear 5", OUTPUT),))
+    outputs = (Output("Output gear 5", OUTPUT),)
+    return Motion(make, Input("crank_angle"), outputs, transmission=between("coupler", "rocker"))

@@ -47,7 +47,8 @@ def motion(design: GearedSixBar) -> Motion:
     """
     course, six = design.course, _Six(design)
     given = Input(start=course.start, end=course.end, turns=course.period_turns)
-    return Motion(six.at, given, (Output("Output link EF", output(design)),))
+    outputs = (Output("Output link EF", output(design)),)
+    return Motion(six.at, given, outputs, transmission=transmission(design))
 
 
 def output(design: GearedSixBar) -> Course:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gearlink.core.mechanism.closures import slider
-from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.courses import between, coordinate
 from gearlink.core.mechanism.dual import Shift, longer
 from gearlink.core.mechanism.joints import Connection, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -47,7 +47,7 @@ def motion(design: SliderCrankDesign) -> Motion:
     outputs: tuple[Output, ...] = (Output("Slider F", displacement(design)),)
     if racks is not None:
         outputs = (Output("Rack", rack_displacement(design)), *outputs)
-    return Motion(make, Input(), outputs)
+    return Motion(make, Input(), outputs, transmission=between("rod", "slider"))
 
 
 def displacement(design: SliderCrankDesign) -> Course:

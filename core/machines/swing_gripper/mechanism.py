@@ -15,6 +15,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Pin
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
+from gearlink.core.mechanism.vectors import least_transmission
 from gearlink.core.studies.loads.contact import roller_on
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:
     stretches = zip(PHASES, starts, starts[1:], strict=False)
     phases = tuple((name, float(a), float(b)) for name, a, b in stretches if a < b)
     outputs = (Output("Gripper arm", swing(design), phases),)
-    return Motion(make, Input("theta", joints=_joints(design)), outputs, transmission=("D", "C"))
+    return Motion(make, Input("theta", joints=_joints(design)), outputs, transmission=least_transmission("D", "C"))
 
 
 def swing(design: SwingGripper) -> Course:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import between, turned
 from gearlink.core.mechanism.joints import Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
@@ -65,7 +65,7 @@ def motion(design: ThreeGearFourBar) -> Motion:
         )  # fmt: skip
 
     outputs = Output("Output gear 5", OUTPUT), Output("Rocker CD", turned("rocker"))
-    return Motion(make, Input("crank_angle"), outputs)
+    return Motion(make, Input("crank_angle"), outputs, transmission=between("coupler", "rocker"))
 
 
 class Poles(NamedTuple):

@@ -24,6 +24,7 @@ from gearlink.core.mechanism.joints import Connection, Coupling, Guide, Mesh, Pi
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, standing, steady
+from gearlink.core.mechanism.vectors import least_transmission
 from gearlink.core.numerics.extremes import share_of
 from gearlink.core.studies.movable import Errors, Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE, RETURN_ARM, ROLLER_ARM
@@ -40,7 +41,7 @@ GEARS = "shaft_gears"
 """The pair between parallel cam shafts."""
 
 
-_TRANSMISSION = ("C", "F")
+_TRANSMISSION = least_transmission("C", "F")
 """Where the coupler moves the cam, and the rod the slider."""
 
 

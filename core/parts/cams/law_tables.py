@@ -51,6 +51,10 @@ def all_laws() -> tuple[Law, ...]:
     return tuple(law(definition) for definition in definitions)
 
 
+_BESIDE = 1e-9
+"""So far beside a joint its two pieces are compared; a continuous acceleration changes by no more than 1e-9 jerk."""
+
+
 def constants(name: str, laws: Sequence[Law]) -> Table:
     """Peak values of laws: velocity, acceleration, jerk (beside jumps of the acceleration), power, and s(1).
 
@@ -84,6 +88,24 @@ def _jumps(law: Law) -> str:
     if law.end_jumps:
         return "at the ends"
     return "inside" if math.isinf(law.peak_jerk) else "none"
+
+
+def acceleration_jumps(law: Law) -> list[tuple[float, float]]:
+    """Where the acceleration of a law jumps, with the jump; at the ends against an acceleration of zero.
+
+    Example
+        >>> from gearlink.core.parts.cams.laws import law
+        >>> [(x, round(jump, 3)) for x, jump in acceleration_jumps(law("simple-harmonic"))]
+        [(0.0, 4.935), (1.0, 4.935)]
+    """
+    if math.isfinite(law.peak_jerk):
+        return []
+
+    def at(x: float) -> float:
+        return float(law.evaluate(x, 2)[2])
+
+    found = [(0.0, at(0.0)), *((x, at(x + _BESIDE) - at(x - _BESIDE)) for x in law.joints), (1.0, -at(1.0))]
+    return [(x, jump) for x, jump in found if abs(jump) > 1e-6 * law.peak_acceleration]
 
 
 def course(law: Law, steps: int) -> Table:

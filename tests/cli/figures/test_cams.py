@@ -220,7 +220,7 @@ def test_stretches_of_a_small_transmission_angle_are_red_on_every_sheet_of_motio
     red = tagged(figure, "fails")
     assert len(red) == sum(len(column) for column in vars(figure)["over_input"])
     x = np.asarray(red[0].get_xdata())
-    angle = vectors.transmission_angles(made.moving.at(np.radians(x), 1), made.moving.transmission)[least]
+    angle = vectors.transmission_angles(made.moving.at(np.radians(x), 1), (least,))[least]
     low, shown = np.degrees(angle) < limit, np.isfinite(np.asarray(red[0].get_ydata(), dtype=float))
     assert low.any()
     assert not low.all()

@@ -17,6 +17,7 @@ from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.flatbed_press import cylinder_positions
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size
 from gearlink.cli.views.figures.write import failures
+from gearlink.core.parts.cams import law_tables
 
 SIX_BAR: list[tuple[list[int], float]] = [([20, 30], 3.0), ([20, 21], 21.0), ([20, 20], 1.0)]
 
@@ -89,9 +90,9 @@ def test_infinite_jerk_is_marked_where_the_acceleration_jumps() -> None:
     from gearlink.core.parts.cams.laws import law
 
     constant = {"scca": [0, 1, 0, 0]}  # two halves of constant acceleration, +4 and -4
-    found = np.array(motion_laws.acceleration_jumps(law(constant)))
+    found = np.array(law_tables.acceleration_jumps(law(constant)))
     assert found == pytest.approx(np.array([(0.0, 4.0), (0.5, -8.0), (1.0, 4.0)]), rel=1e-12)
-    assert motion_laws.acceleration_jumps(law("modified-sine")) == []
+    assert law_tables.acceleration_jumps(law("modified-sine")) == []
     figure, axes = style.figure(4.0, 4.0, "laws"), []
     for k in range(4):
         axes.append(figure.add_subplot(4, 1, k + 1))

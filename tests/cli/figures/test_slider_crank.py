@@ -11,7 +11,7 @@ from sheets import curve, lines, panel, placed_sheet, points, sheet, words
 from sweeps import mostly_slow
 
 from gearlink.cli.options import Options
-from gearlink.cli.views.figures.slider_crank import build, dead_centers
+from gearlink.cli.views.figures.slider_crank import build
 from gearlink.cli.views.figures.write import write_plot
 
 DATA = {"kind": "slider-crank", "name": "sc", "stroke": 310.0, "rod": 520.0, "offset": 50.0}
@@ -38,7 +38,7 @@ def test_curves(case):
     degrees, travel = curve(figure, "travel")
     assert travel.min() == pytest.approx(0.0, abs=1e-9 * rod)
     assert travel.max() == pytest.approx(stroke, abs=1e-9 * rod)
-    assert degrees[np.argmin(travel)] == pytest.approx(np.degrees(dead_centers(made)[0]) % 360.0, abs=0.5)
+    assert degrees[np.argmin(travel)] == pytest.approx(np.degrees(made.dead_center_folded_at) % 360.0, abs=0.5)
     out = (degrees[np.argmax(travel)] - degrees[np.argmin(travel)]) % 360.0
     assert out / (360.0 - out) == pytest.approx(made.slider_crank.quick_return_ratio, rel=1e-2)
     _, velocity = curve(figure, "velocity")
@@ -67,7 +67,7 @@ def test_positions_have_the_lengths_of_the_links(case):
 
 def test_the_sheet_stands_as_the_film_does():
     made, figure = sheet(DATA, "crank")
-    folded, _ = dead_centers(made)
+    folded = made.dead_center_folded_at
     film = build(made, np.array([folded / (2.0 * np.pi)]))
     (line,) = (line for label, line in lines(panel(figure, "Crank")).items() if label.startswith("folded"))
     assert points(line).tolist() == [complex(mark.point[0]) for mark in film.marks]

@@ -73,12 +73,15 @@ def test_odd_designs_draw(case, command, drawn):
 def test_curves_are_the_tables(case):
     made, figure = sheet(data(ODD[case]))
     table = made.table("motion")
-    for name in ("output_angle", "speed_ratio", "acceleration_ratio", "transmission_angle"):
+    for name in ("output_angle", "speed_ratio", "acceleration_ratio"):
         x, y = curve(figure, name.replace("_", "-"))
         assert x[:-1].tolist() == list(table.data[0])
         assert y[:-1].tolist() == list(table.data[table.columns.index(name)])
         turned = 360.0 * made.mean_ratio if name == "output_angle" else 0.0
         assert (x[-1], y[-1]) == (360.0, y[0] + turned)
+    x, y = curve(figure, "transmission-angle")  # of the motion itself, twice as often
+    assert x[:-1:2].tolist() == list(table.data[0])
+    assert y[::2] == pytest.approx(np.append(table["transmission_angle"], y[0]), rel=1e-12)
 
 
 def test_mechanism_is_to_scale():

@@ -447,15 +447,15 @@ def test_cams_stand_in_the_frames_of_their_tables(base: str, changes: dict[str, 
 
 @pytest.mark.parametrize("way", ["outward", "homeward"])
 def test_directions_left_out_are_those_of_the_film(way: str) -> None:
-    from gearlink.cli.views.figures.wide_swing_cam import Cycle, _crank_rocker, _slider
+    from gearlink.cli.views.figures.wide_swing_cam import Cycle, _slider
 
     design = factory.design("wide_swing_oscillating_cam", command="loads", drive__stroke=way, loads={})
     phi = np.array([0.2, 1.1, 2.3])
-    drawn = _crank_rocker(Cycle(design.design, phi / (2.0 * math.pi)))
+    drawn = Cycle(design.design, phi / (2.0 * math.pi)).pins
     links = design.machine.at(phi).links
     shift = design.spec.cam.center_distance
-    for name, place in zip(("crank", "coupler", "cam"), (drawn[0], drawn[1], drawn[3]), strict=True):
-        assert np.abs(links[name].origin.value + shift - place).max() <= 1e-9
+    for name, place in {"crank": "A", "coupler": "B", "cam": "O"}.items():
+        assert np.abs(links[name].origin.value + shift - drawn[place]).max() <= 1e-9
     swung = factory.design("wide_swing_slider_cam", command="loads", loads={})
     cycle = Cycle(swung.design, phi / swung.cam.cycle_angle * 0.5 * 150.0 / 180.0)
     _, chain = _slider(cycle)

@@ -66,22 +66,24 @@ def test_several_threads_may_ask_at_once() -> None:
 
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(
-    ("name", "quantities"),
+    ("name", "pins", "quantities"),
     [
-        ("hypocycloid_slider", ("min_transmission_angle",)),
-        ("ty460", ("min_transmission_angle_bed", "min_transmission_angle_cylinder", "min_rod_angle")),
-        ("swing_gripper", ("min_transmission_angle",)),
-        ("five_bar_positions", ("min_transmission_angle",)),
+        ("hypocycloid_slider", "F", ("min_transmission_angle",)),
+        ("ty460", "CMF", ("min_transmission_angle_bed", "min_transmission_angle_cylinder", "min_rod_angle")),
+        ("swing_gripper", "DC", ("min_transmission_angle",)),
+        ("five_bar_positions", "D", ("min_transmission_angle",)),
     ],
 )
 def test_transmission_angles_at_the_pins_reach_the_minimum_that_is_judged(
-    name: str, quantities: tuple[str, ...]
+    name: str, pins: str, quantities: tuple[str, ...]
 ) -> None:
     """A smooth minimum, seen every 0.01 deg or so: 1e-6 rad; one at an end of the range is met."""
     design = factory.design(name)
     motion = design.moving
     q = np.linspace(motion.input.start, motion.input.end, 36001)
-    found = vectors.transmission_angles(motion.at(q, 1), motion.transmission)
+    links = motion.at(q, 1)
+    found = vectors.transmission_angles(links, pins)
+    assert motion.transmission.of(links)[0].tolist() == np.min([*found.values()], axis=0).tolist()
     owners = [design.motion if each == "min_rod_angle" else design for each in quantities]
     judged = np.concatenate(
         [np.atleast_1d(getattr(owner, each)) for owner, each in zip(owners, quantities, strict=True)]
@@ -92,7 +94,7 @@ def test_transmission_angles_at_the_pins_reach_the_minimum_that_is_judged(
 def test_transmission_angles_of_a_wide_swing_are_those_of_its_drive_and_its_rod() -> None:
     design = factory.design("wide_swing_slider_drive")
     q = np.linspace(0.0, 2.0 * np.pi, 36001)
-    found = vectors.transmission_angles(design.moving.at(q, 1), design.moving.transmission)
+    found = vectors.transmission_angles(design.moving.at(q, 1), "CF")
     judged = design.motion.transmission_angles
     assert float(found["C"].min()) == pytest.approx(judged["drive"], abs=1e-6)
     assert float(found["F"].min()) == pytest.approx(judged["slider.rod"], abs=1e-6)

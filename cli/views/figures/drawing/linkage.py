@@ -15,12 +15,22 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.mechanism.motion import Motion
+
     Panel = Callable[[Axes, Any], None]
+    Marks = Callable[..., None]
 
 DWELL: Any = {"facecolor": "#CFE8F7", "linewidth": 0, "zorder": 0}
 BACKWARD: Any = {"facecolor": "none", "edgecolor": "#F3B562", "hatch": "///", "linewidth": 0, "zorder": 0.5}
 """A dwell is tinted and a back-step hatched, so that both are seen where they overlap."""
 TURN = 360.0
+FOUR_BAR = {
+    "crank_length": "crank AB",
+    "coupler_length": "coupler BC",
+    "rocker_length": "rocker CD",
+    "frame_length": "frame AD",
+}
+"""Links of a four-bar in short words."""
 _MOST_LINES = 12
 _ACROSS = 40.0
 """Letters that a row of numbers has room for."""
@@ -91,23 +101,47 @@ def _count(value: object) -> str:
 
 def chart(axes: Axes, title: str, ylabel: str, xlabel: str = "crank angle [deg]", turn: bool = True) -> None:
     """An empty chart over the crank angle."""
-    style.curves(axes, xlabel, ylabel)
-    panels.small_ticks(axes)
+    panels.curves(axes, xlabel, ylabel, title)
     if turn:
         style.full_turn(axes)
-    panels.heading(axes, title)
-
-
-def columns(design: Any, table: str) -> dict[str, Any]:
-    """The columns of a table by name."""
-    found = design.table(table)
-    return dict(zip(found.columns, found.data, strict=True))
 
 
 def over_turn(design: Any, name: str, gain: float = 0.0) -> tuple[Any, Any]:
     """A column of the motion table over the crank angle, closed at 360 deg by its first value and what a turn adds."""
-    data = columns(design, "motion")
-    return closed(data["crank_angle"], TURN), closed(data[name], gain)
+    table = design.table("motion")
+    return closed(table["crank_angle"], TURN), closed(table[name], gain)
+
+
+def output(axes: Axes, design: Any, mark: Marks, **look: Any) -> None:
+    """The angle of the output over the crank angle, and what it would be without nonuniformity."""
+    chart(axes, "Output angle", "output angle [deg]")
+    mark(axes, design, label=True)
+    gained = TURN * design.mean_ratio
+    axes.plot(*over_turn(design, "output_angle", gained), color=style.BLUE, linewidth=1.6, **look)
+    mean: dict[str, Any] = {"color": style.GREY, "linewidth": 0.9, "linestyle": style.DOTTED}
+    axes.plot([0.0, TURN], [0.0, gained], **mean, label="mean")
+    panels.legend_above(axes, 2)
+
+
+def rate(
+    axes: Axes,
+    design: Any,
+    title: str,
+    ylabel: str,
+    name: str,
+    order: int,
+    *,
+    mark: Marks,
+    color: str = style.BLUE,
+    zero: str = style.GREY,
+    gid: str = "",
+) -> None:
+    """A speed or an acceleration of the motion table over the crank angle, in time where the speed is known."""
+    chart(axes, title, ylabel)
+    mark(axes, design)
+    axes.axhline(0.0, color=zero, linewidth=0.8)
+    axes.plot(*over_turn(design, name), color=color, linewidth=1.6, gid=gid or None)
+    time_axes.in_time(axes, design.angular_speed, order, "rad")
 
 
 def closed(values: Any, gain: float = 0.0) -> Any:
@@ -116,9 +150,25 @@ def closed(values: Any, gain: float = 0.0) -> Any:
     return np.append(data, data[0] + gain)
 
 
-def transmission(axes: Axes, design: Any, x: Any, y: Any, xlabel: str = "crank angle [deg]", turn: bool = True) -> None:
-    """Transmission angle over the input with its limit; red below it."""
-    limit = design.spec.limits.transmission_angle
+def transmission(
+    axes: Axes,
+    design: Any,
+    degrees: Any = None,
+    xlabel: str = "crank angle [deg]",
+    turn: bool = True,
+    motion: Motion | None = None,
+) -> None:
+    """Transmission angle over the input with its limit; red below it.
+
+    Parameters
+        degrees : (N,) array [deg] - inputs; None: all
+        motion : of which it is; None: of the design
+    """
+    motion, limit = motion or design.moving, design.spec.limits.transmission_angle
+    assert motion.transmission is not None, "asked for only where there is one"
+    start, end = math.degrees(motion.input.start), math.degrees(motion.input.end)
+    x = np.linspace(start, end, 721) if degrees is None else degrees
+    y = np.degrees(motion.transmission.rates(motion, np.radians(x), 0)[0])
     chart(axes, "Transmission angle", "transmission\nangle [deg]", xlabel, turn=turn)
     axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
     axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
@@ -126,11 +176,6 @@ def transmission(axes: Axes, design: Any, x: Any, y: Any, xlabel: str = "crank a
     axes.set_ylim(0.0, 92.0)
     axes.set_yticks(range(0, 91, 30))
     panels.legend_above(axes, 2)
-
-
-def over_crank(axes: Axes, design: Any) -> None:
-    """The transmission angle of the motion table."""
-    transmission(axes, design, *over_turn(design, "transmission_angle"))
 
 
 def shade(axes: Axes, look: Any, start: float, width: float, label: str | None = None) -> None:

@@ -7,22 +7,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 from unicodedata import east_asian_width
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import failing, style
 from gearlink.cli.views.scenes.scene import PHASE_TINTS
+from gearlink.core.mechanism.courses import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
+    from gearlink.core.mechanism.motion import Output
     from gearlink.core.parts.cams.disc_cam import DiscCam
 
 
+Box: TypeAlias = tuple[float, float, float, float]
 _A4, _A3 = (8.27, 11.69), (11.69, 16.54)
 _SQUEEZED = 1.25
 """Pages of A4 that still are drawn on one."""
@@ -63,6 +67,11 @@ class Phase:
         return [(start, end)] if end <= 360.0 else [(start, 360.0), (0.0, end - 360.0)]
 
 
+def phases_of(output: Output) -> tuple[Phase, ...]:
+    """The stretches of the input in which one law moves an output."""
+    return tuple(Phase(name, math.degrees(start), math.degrees(end)) for name, start, end in output.phases)
+
+
 def page(title: str, share: float = 1.0, *, large: bool | None = None, lying: bool = False) -> Figure:
     """A figure as wide as A4 or A3, and at most as high, so that printers take it to scale.
 
@@ -78,6 +87,13 @@ def page(title: str, share: float = 1.0, *, large: bool | None = None, lying: bo
     across, up = style.MARGIN / width, style.MARGIN / height
     engine.set(rect=(across, up, 1.0 - 2.0 * across, 1.0 - 2.0 * up), w_pad=0.03, h_pad=0.05)
     return made
+
+
+def stack(title: str, heights: Sequence[float], share: float = 1.0, **paper: Any) -> tuple[Figure, list[Axes]]:
+    """A figure of panels one above the other, and these."""
+    made = page(title, share, **paper)
+    grid = made.add_gridspec(len(heights), 1, height_ratios=heights)
+    return made, [made.add_subplot(grid[row]) for row in range(len(heights))]
 
 
 def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
@@ -187,6 +203,20 @@ def drawing(axes: Axes, title: str) -> None:
     _few_ticks(axes, 7)
 
 
+def per_input(unit: str, order: int, per: str = "rad") -> str:
+    """Unit of a value, or of its derivative by the input, as panels have it: angles in degrees, their rates per rad.
+
+    Example
+        >>> per_input("rad", 0), per_input("rad", 2), per_input("mm", 2), per_input("rad", 1, "mm")
+        ('deg', '1/rad', 'mm/rad²', 'rad/mm')
+    """
+    if order == 0:
+        return "deg" if unit == "rad" else unit
+    if per == "rad":
+        return ("1", "1/rad", "1/rad²")[order - 1] if unit == "rad" else unit + ("/rad", "/rad²", "/rad³")[order - 1]
+    return unit_of(unit, order, per).replace("^2", "²").replace("^3", "³")
+
+
 def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "", at: str = "°") -> None:
     """A marked extreme of a curve over its input, with its value; `at` is the unit of places."""
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
@@ -205,11 +235,20 @@ def _half_width(axes: Axes, words: str) -> float:
     return min(0.5, 0.5 * 0.6 * _NAME_SIZE * len(words) / across)
 
 
-def legend_beside(axes: Axes, drawing: Axes) -> None:
-    """The legend of a drawing in an empty panel of its own."""
+def legend_beside(axes: Axes, drawing: Axes, **look: Any) -> None:
+    """The legend of a drawing in an empty panel of its own, its words once for each colour."""
     axes.set_axis_off()
-    handles, labels = drawing.get_legend_handles_labels()
-    axes.legend(handles, labels, loc="upper left", frameon=False, fontsize=8, borderaxespad=0.0, handlelength=2.8)
+    entries = zip(*drawing.get_legend_handles_labels(), strict=True)
+    found = {(words, str(getattr(each, "get_color", lambda: "")())): (each, words) for each, words in entries}
+    usual: dict[str, Any] = {"loc": "upper left", "fontsize": 8, "borderaxespad": 0.0, "handlelength": 2.8}
+    handles, words = zip(*found.values(), strict=True) if found else ((), ())
+    axes.legend(handles, words, frameon=False, **{**usual, **look})
+
+
+def message(axes: Axes, words: str, size: float = 8) -> None:
+    """Words in place of a panel that has nothing to show."""
+    axes.axis("off")
+    axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=size, transform=axes.transAxes)
 
 
 def small_ticks(axes: Axes) -> None:
@@ -236,10 +275,17 @@ def few_ticks(axis: Axis, most: int = 6) -> None:
     axis.set_major_locator(RoundNumbers(most))
 
 
-def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
-    """Curves over one revolution; panels above others go without a label of the x axis."""
+def curves(axes: Axes, xlabel: str, ylabel: str, title: str = "") -> None:
+    """A panel of curves among several."""
     style.curves(axes, xlabel, ylabel)
     small_ticks(axes)
+    if title:
+        heading(axes, title)
+
+
+def turn_panel(axes: Axes, ylabel: str, xlabel: str = "", title: str = "") -> None:
+    """Curves over one revolution; panels above others go without a label of the x axis."""
+    curves(axes, xlabel, ylabel, title)
     style.full_turn(axes, 30)
     if not xlabel:
         axes.tick_params(labelbottom=False)
@@ -252,8 +298,7 @@ def _turn_angles() -> Any:
 def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: str) -> None:
     """Pressure angle of each cam over the cam angle, its extreme and the limit [deg]."""
     degrees = _turn_angles()
-    turn_panel(axes, "pressure\nangle [deg]", xlabel)
-    heading(axes, "Pressure angle")
+    turn_panel(axes, "pressure\nangle [deg]", xlabel, "Pressure angle")
     for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
         values = np.degrees(cam.pressure_angle(np.radians(degrees)))
         worst = cam.max_pressure_angle
@@ -272,8 +317,7 @@ def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: s
 def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
     """Curvature of each pitch curve over the cam angle, and the curvature of the roller, which undercuts."""
     degrees = _turn_angles()
-    turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel)
-    heading(axes, "Curvature")
+    turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel, "Curvature")
     for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
         least = cam.min_curvature_radius
         values = cam.curvature(np.radians(degrees))
@@ -296,6 +340,37 @@ def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
 def _legend_of_cams(axes: Axes) -> None:
     """A row, or two where a cam fails."""
     legend_above(axes, 5 if len(axes.get_legend_handles_labels()[1]) < 4 else 3)
+
+
+def by_value(
+    axes: Axes, points: NDArray[Any], values: NDArray[Any], limit: float | None, width: float, bar: Box
+) -> tuple[NDArray[Any], Axes]:
+    """A line coloured by the values of its pieces, from 0 to a limit where there is one; the pieces and their scale.
+
+    Parameters
+        points, values : (N,) complex, (N - 1,) arrays - what has no value is left out
+        bar : where the scale stands, in shares of the panel
+    """
+    from matplotlib.collections import LineCollection
+
+    corners = np.column_stack((points.real, points.imag))
+    pieces = np.stack((corners[:-1], corners[1:]), axis=1)
+    known = np.isfinite(pieces).all(axis=(1, 2)) & np.isfinite(values)
+    lines = LineCollection(list(pieces[known]), cmap="viridis", linewidths=width, gid="by value")
+    lines.set_array(values[known])
+    lines.set_clim(0.0, limit)
+    axes.add_collection(lines)
+    scale = axes.inset_axes(bar)  # a panel of its own would count twice in the layout of matplotlib before 3.11
+    axes.figure.colorbar(lines, cax=scale)
+    scale.tick_params(labelsize=7)
+    return pieces, scale
+
+
+def again(axes: Axes, pieces: NDArray[Any], color: str, width: float, **look: Any) -> None:
+    """Some pieces of a line once more, in one colour."""
+    from matplotlib.collections import LineCollection
+
+    axes.add_collection(LineCollection(list(pieces), colors=color, linewidths=width, **look))
 
 
 def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: Any = "-") -> complex:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import labels, panels, style
-from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, Scene, placed
+from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Scene, placed, points_of
 from gearlink.cli.views.scenes.shown import on_disc, shifts
 
 if TYPE_CHECKING:
@@ -79,12 +79,7 @@ def _keys(axes: Axes, scene: Scene) -> None:
     """The scales of the arrows, in rows below the drawing."""
     if not scene.keys:
         return
-    points = [placed(part, 0) for part in scene.parts if isinstance(part, Body) and np.isfinite(part.place[0])]
-    points += [joint for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
-    points += [np.asarray(part.start + part.vector) for part in scene.parts if isinstance(part, Arrow)]
-    points += [part.points for part in scene.parts if isinstance(part, Line)]
-    whole = np.concatenate(points)
-    whole = whole[np.isfinite(whole)]
+    whole = points_of(scene.parts)
     left, low, size = float(whole.real.min()), float(whole.imag.min()), _size(_position(scene, 0))
     for row, key in enumerate(scene.keys):
         at = complex(left, low - _ROW * size * (row + 1.0))
@@ -96,12 +91,34 @@ def _keys(axes: Axes, scene: Scene) -> None:
         words.set_gid(labels.KEY)
 
 
+def turned(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene], *fractions: float) -> Scene:
+    """The first of some positions, with arrows that show in which sense it turns on; the scene of all of them."""
+    scene = build(design, np.array(fractions))
+    draw(axes, scene, ahead=build(design, np.array([fractions[0] + AHEAD])))
+    return scene
+
+
+def magnified(
+    axes: Axes, box: panels.Box, scene: Scene, at: complex, reach: float, title: str, ahead: Scene | None = None
+) -> Axes:
+    """What stands about a point of a scene, drawn a second time in a corner; to scale, without numbers up its side."""
+    detail = axes.inset_axes(box, zorder=9)
+    draw(detail, scene, ahead=ahead)
+    detail.set_aspect("equal")
+    detail.set_xlim(at.real - reach, at.real + reach)
+    detail.set_ylim(at.imag - reach, at.imag + reach)
+    detail.set_yticks([])
+    detail.set_title(title, loc="left", fontsize=7)
+    for text in detail.texts:
+        text.set_clip_on(True)
+    return detail
+
+
 def two_positions(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene]) -> None:
     """Links and gears at the first input angle of a loop, lightly half a loop later."""
-    scene = build(design, np.array([0.0, 0.5]))
+    scene = turned(axes, design, build, 0.0, 0.5)
     first, other = scene.readouts[0].values
     panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
-    draw(axes, scene, ahead=build(design, np.array([AHEAD])))
     lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
 
 
@@ -144,10 +161,7 @@ def _free_radius(shown: Scene, axis: complex) -> float:
 
 def sides(scene: Scene) -> tuple[float, float]:
     """Width and height of what is drawn of all positions of a scene [mm]."""
-    reached = [placed(part, i) for part in scene.parts if isinstance(part, Body) for i in range(len(part.place))]
-    reached += [joint for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
-    points = np.concatenate(reached)
-    points = points[np.isfinite(points)]
+    points = points_of(part for part in scene.parts if isinstance(part, Body | Chain))
     return float(np.ptp(points.real)), float(np.ptp(points.imag))
 
 
@@ -237,9 +251,5 @@ def _words(axes: Axes, shown: Scene) -> None:
 
 def _size(shown: Scene) -> float:
     """The greater side of the drawing [mm]."""
-    reached: list[Points] = [placed(part, 0) for part in shown.parts if isinstance(part, Body)]
-    reached += [joint for part in shown.parts if isinstance(part, Chain) for joint in part.joints]
-    reached += [part.points for part in shown.parts if isinstance(part, Line)]
-    reached = [p[np.isfinite(p)] for p in reached if np.isfinite(p).any()]
-    sides = [[part for p in reached for part in (side(p).min(), side(p).max())] for side in (np.real, np.imag)]
-    return float(max(max(side) - min(side) for side in sides))
+    points = points_of(part for part in shown.parts if not isinstance(part, Arrow))
+    return float(max(np.ptp(points.real), np.ptp(points.imag)))

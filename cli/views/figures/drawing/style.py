@@ -145,6 +145,23 @@ def area(axes: Axes, points: Sequence[complex] | NDArray[Any], **look: Any) -> N
     cornered(axes, Polygon(np.column_stack((corners.real, corners.imag)), closed=True, **look))
 
 
+def holed(axes: Axes, outside: NDArray[Any], inside: NDArray[Any], **look: Any) -> None:
+    """A filled outline with a hole, both given by their corners."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    around, hole = (np.column_stack((z.real, z.imag)) for z in (outside, inside))
+    if _area(outside) * _area(inside) > 0.0:
+        hole = hole[::-1]
+    paths = [Path(around, closed=True), Path(hole, closed=True)]
+    cornered(axes, PathPatch(Path.make_compound_path(*paths), **look))
+
+
+def _area(points: NDArray[Any]) -> float:
+    """Area within an outline, negative where it runs clockwise."""
+    return 0.5 * float(np.sum((points.conj() * np.roll(points, -1)).imag))
+
+
 def cornered(axes: Axes, patch: Patch) -> None:
     """A patch of straight sides, which reaches as far as its corners; `add_patch` would seek the extremes of each side,
     which takes longer than to draw them."""

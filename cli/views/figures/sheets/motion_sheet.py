@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,8 @@ from gearlink.cli.views.figures.sheets import cam_sheets
 from gearlink.cli.views.scenes.shown import speed_of
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.mechanism.courses import unit_of
+from gearlink.core.mechanism import dwells
+from gearlink.core.mechanism.motion import Input
 from gearlink.core.numerics.extremes import extremes_over
 
 if TYPE_CHECKING:
@@ -30,15 +31,11 @@ if TYPE_CHECKING:
 _TURN = 2.0 * math.pi
 _COLORS = (style.BLUE, style.GREEN, style.PURPLE, style.RED)
 _NAMES = ("place", "velocity", "acceleration", "jerk")
-_NEAR = 0.02
-"""Of the height of a curve: by so much a hump of its points may lie below the highest and be the extreme."""
 _EQUAL = 1e-11
 """Of the height of a curve: what differs by less is equal."""
 _BEFORE = 8.0
 """Units in the last place by which a place is surely before a joint, in deg and in rad."""
 _MOST = 2
-_FEW = 9
-"""Points between a place and those beside it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,29 +72,21 @@ class Course:
 
         A jump counts with the values on both sides of it.
         """
-        sign = 1.0 if greatest else -1.0
-        values = sign * self.rates[order]
-        top, height = float(values.max()), float(np.ptp(values))
-        best = -math.inf, 0.0
-        for i in np.flatnonzero(_humps(values, _EQUAL * height) & (values >= top - _NEAR * height)).tolist():
-            low, high = self._beside(i)
 
-            def rate(x: Reals) -> Reals:
-                return np.asarray(self.at(x)[order])
+        def rate(x: Reals) -> Reals:
+            return np.asarray(self.at(x)[order])
 
-            found = extremes_over([(rate, greatest)], low, high, joints=self.joints, samples=_FEW, fewest=_FEW)[0]
-            value, place = float(values[i]), float(self.x[i])
-            if sign * found.value > value + _EQUAL * height:
-                value, place = sign * found.value, found.place
-            if value > best[0] + _EQUAL * height:
-                best = value, place
-        return best[1], sign * best[0]
-
-    def _beside(self, i: int) -> tuple[float, float]:
-        """A little beyond the neighbours of a place, which lie within the course."""
-        step = 1.01 * float(np.diff(self.x).max())
-        place = float(self.x[i])
-        return max(place - step, float(self.x[0])), min(place + step, float(self.x[-1]))
+        x, values = self.x, self.rates[order]
+        end, beside, equal = float(x[-1]), 2.0 * float(np.diff(x).max()), _EQUAL * float(np.ptp(values))
+        found = None
+        while end > x[0]:
+            most = extremes_over([(rate, greatest)], float(x[0]), end, joints=self.joints, samples=len(x))[0]
+            if found is not None and abs(most.value - found.value) > equal:
+                break
+            found, end = most, most.place - beside
+        assert found is not None, "a course has a length"
+        reached = np.flatnonzero(np.abs(values - found.value) <= equal)
+        return float(x[reached[0]]) if reached.size else found.place, found.value
 
 
 def courses(design: Any) -> list[Course]:
@@ -117,53 +106,40 @@ def of_motion(design: Any) -> list[Course]:
 
 
 def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Course]:
-    """The same of a motion, with so many steps a degree."""
-    given = motion.input
-    if given.unit == "mm":
-        return _of_slide(motion, speed)
-    start, end = math.degrees(given.start), math.degrees(given.end)
-    joints = np.array(given.joints)
-    after = np.degrees(joints)
+    """The same of a motion, with so many steps a degree; 720 of a slide."""
+    given, turning = motion.input, motion.input.unit == "rad"
+    shown, hidden = (np.degrees, np.radians) if turning else (np.asarray, np.asarray)
+    start, end, joints = float(shown(given.start)), float(shown(given.end)), np.array(given.joints)
+    after = shown(joints)
     before = after - _BEFORE * np.spacing(after)
-    even = np.linspace(start, end, math.ceil(steps * (end - start)) + 1)
+    even = np.linspace(start, end, (math.ceil(steps * (end - start)) if turning else 720) + 1)
     x = np.unique(np.concatenate([even, after, before[after > start]]))
 
     def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
         def rates(x: Reals) -> tuple[Reals, ...]:
-            q = np.radians(x)
-            for joint, degrees in zip(joints, after, strict=True):
-                q[x == degrees] = joint
+            q = np.array(hidden(x))
+            for joint, place in zip(joints, after, strict=True):
+                q[x == place] = joint
             # At the very end the law is the last one, not that with which a new turn begins.
             q[q == given.end] -= _BEFORE * np.spacing(given.end)
             return tuple(course.rates(motion, q, 3))
 
         return rates
 
-    over = f"{input_words(given)} [deg]"
     return [
         Course(
             each.name,
-            over,
+            f"{input_words(given)} [{'deg' if turning else 'mm'}]",
             x,
             at(each.course),
             each.course.unit,
             speed,
-            tuple(panels.Phase(name, math.degrees(low), math.degrees(high)) for name, low, high in each.phases),
+            panels.phases_of(each) if turning else (),
+            per=given.unit,
             joints=tuple(after.tolist()),
         )
         for each in motion.outputs
     ]
-
-
-def _of_slide(motion: Any, speed: float | None) -> list[Course]:
-    """The same where a slide drives."""
-    given = motion.input
-    x, over = np.linspace(given.start, given.end, 721), f"{given.column.replace('_', ' ')} [mm]"
-
-    def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
-        return lambda x: tuple(course.rates(motion, x, 3))
-
-    return [Course(each.name, over, x, at(each.course), each.course.unit, speed, per="mm") for each in motion.outputs]
 
 
 def draw(design: Any) -> Figure:
@@ -187,7 +163,8 @@ def draw(design: Any) -> Figure:
 
 def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
     values = np.degrees(course.rates[0]) if course.unit == "rad" and order == 0 else course.rates[order]
-    panels.turn_panel(axes, _per_angle(course, order), course.over if last else "")
+    name, unit = f"{_NAMES[order]}\n" if order else "position ", panels.per_input(course.unit, order, course.per)
+    panels.turn_panel(axes, f"{name}[{unit}]", course.over if last else "")
     if course.per == "rad":
         style.degrees(axes, float(course.x[0]), float(course.x[-1]))
     else:
@@ -209,25 +186,6 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
         time_axes.in_time(axes, course.speed, order, measure, scale)
     if last and course.speed is not None:
         time_axes.in_ms(axes, 1e3 * (math.radians(1.0) if course.per == "rad" else 1.0) / course.speed)
-
-
-def _humps(values: Reals, equal: float) -> Any:
-    """Whether a value is no less than those beside it; of a plateau its two ends alone."""
-    beyond = np.concatenate([[-math.inf], values, [-math.inf]])
-    level = (np.abs(values - beyond[:-2]) <= equal) & (np.abs(values - beyond[2:]) <= equal)
-    return (values >= beyond[:-2]) & (values >= beyond[2:]) & ~level
-
-
-def _per_angle(course: Course, order: int) -> str:
-    """The label of a panel: what it shows and per which angle."""
-    if order == 0:
-        return f"position [{'deg' if course.unit == 'rad' else course.unit}]"
-    power = ("", "", "²", "³")[order]
-    if course.per == "mm":
-        per = unit_of(course.unit, order, "mm").replace("^2", "²").replace("^3", "³")
-        return f"{_NAMES[order]}\n[{per}]"
-    per = f"{course.unit}/rad{power}" if course.unit != "rad" else ("1", "1", "1/rad", "1/rad²")[order]
-    return f"{_NAMES[order]}\n[{per}]"
 
 
 # Outputs, kind by kind
@@ -270,108 +228,23 @@ def wide_swing(design: Any) -> list[Course]:
     from gearlink.core.machines.wide_swing.mechanism import working_stroke
 
     moving, angle = working_stroke(design), design.motion.cycle_angle
-    x, speed = math.degrees(angle) * np.linspace(0.0, 1.0, 721), angle / design.motion.working_time
-    over = "cam angle [deg]" if design.spec.drive is None else "crank angle [deg]"
-
-    def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
-        at_start = float(course.rates(moving, np.zeros(1), 0)[0][0])
-        return lambda x: tuple(course.less(at_start).rates(moving, np.minimum(np.radians(x), angle), 3, side=-1))
-
-    names = ("Rocker, working stroke", "Slider")
-    return [
-        Course(name, over, x, at(each.course), each.course.unit, speed)
-        for name, each in zip(names, moving.outputs, strict=False)
+    column = "cam_angle" if design.spec.drive is None else "crank_angle"
+    outputs = [
+        each._replace(name=name, course=each.course.less(float(each.course.rates(moving, np.zeros(1), 0)[0][0])))
+        for name, each in zip(("Rocker, working stroke", "Slider"), moving.outputs, strict=False)
     ]
+    stroke = replace(moving, input=Input(column, end=angle, turns=None), outputs=tuple(outputs))
+    return _courses(stroke, angle / design.motion.working_time, 720.0 / math.degrees(angle))
 
 
-_SAMPLES = 7200
 _ROLLERS = 12
-_USUAL = 0.005
-"""Of the range of an output: how far it may move in a dwell of which the file says nothing."""
 _WIDER = 0.35
 """Of a dwell: shown to each side of it."""
-_LEAST = math.radians(2.0)
 
 
-class Dwell(NamedTuple):
-    """The longest stretch of the input in which an output stays within a tolerance.
-
-    Fields
-        start, width : float [rad] - of the input
-        middle, tolerance : float [rad, mm] - the output stays within middle +- tolerance
-    """
-
-    start: float
-    width: float
-    middle: float
-    tolerance: float
-
-
-def longest(q: Reals, y: Reals, tolerance: float, gain: float | None = None) -> Dwell:
-    """The longest stretch in which a course stays within +- tolerance of some value.
-
-    Parameters
-        q : (N,) array - equal steps, of a course that goes on without the end of the period
-        gain : float or None - what a course that goes on as it began adds in a period; None: it ends
-    Example
-        >>> q = np.arange(8.0)
-        >>> found = longest(q, np.array([0.0, 3.0, 5.0, 5.1, 5.0, 3.0, 1.0, 0.5]), 0.06)
-        >>> found.start, found.width
-        (2.0, 2.0)
-    """
-    n, step = len(q), float(q[1] - q[0])
-    track = y if gain is None else np.concatenate([y, y + gain])
-    best, start = (0, 0), 0
-    low: list[int] = []
-    high: list[int] = []
-    for end, value in enumerate(track.tolist()):
-        while low and track[low[-1]] >= value:
-            low.pop()
-        while high and track[high[-1]] <= value:
-            high.pop()
-        low.append(end)
-        high.append(end)
-        while track[high[0]] - track[low[0]] > 2.0 * tolerance:
-            start += 1
-            if low[0] < start:
-                low.pop(0)
-            if high[0] < start:
-                high.pop(0)
-        if end - start > best[1] - best[0] and end - start < n:
-            best = start, end
-    part = track[best[0] : best[1] + 1]
-    middle = 0.5 * float(part.min() + part.max())
-    return Dwell(float(q[0]) + step * best[0], step * (best[1] - best[0]), middle, tolerance)
-
-
-def dwell_of(design: Any) -> Dwell | None:
-    """The dwell of the first output; None of one that stops nowhere, and where the input does not turn."""
-    motion = design.moving
-    given = motion.input
-    if given.unit != "rad" or not motion.outputs or given.turns not in (1, None):
-        return None
-    q = np.linspace(given.start, given.end, _SAMPLES, endpoint=given.turns is None)
-    y, rate = motion.outputs[0].course.rates(motion, q, 1)
-    standing = float(np.mean(np.abs(rate) < 1e-6 * np.abs(rate).max())) * (given.end - given.start)
-    asked = _asked(design)
-    if asked is None and standing < _LEAST and "dwell" not in design.kind:
-        return None  # what only turns back
-    found = longest(q, np.asarray(y), asked or _usual(motion.outputs[0].course.unit, float(np.ptp(y))), _gain(motion))
-    return found if found.width >= _LEAST else None
-
-
-def _usual(unit: str, reach: float) -> float:
-    """A share of the range of an output, of two digits in its unit on the sheet."""
-    shown = math.degrees(1.0) if unit == "rad" else 1.0
-    return float(f"{_USUAL * reach * shown:.2g}") / shown
-
-
-def _gain(motion: Any) -> float | None:
-    """What the first output gains in a period; None of a motion over a range."""
-    if motion.input.turns is None:
-        return None
-    ends = motion.outputs[0].course.rates(motion, np.array([motion.input.start, motion.input.end]), 0)[0]
-    return float(ends[1] - ends[0])
+def dwell_of(design: Any) -> dwells.Dwell | None:
+    """The dwell of the first output within what the file allows."""
+    return dwells.dwell_of(design.moving, _asked(design), dwells="dwell" in design.kind)
 
 
 def _asked(design: Any) -> float | None:
@@ -392,20 +265,17 @@ def dwell(design: Any) -> Figure:
     if motion.input.turns is None:
         q = q[(q >= motion.input.start) & (q <= motion.input.end)]
     y, rate = output.course.rates(motion, np.asarray(q % _TURN if motion.input.turns else q), 1)
-    y = y + (_gain(motion) or 0.0) * np.floor(q / _TURN)
+    y = y + (dwells.gain_of(motion) or 0.0) * np.floor(q / _TURN)
     angle = output.course.unit == "rad"
     error = np.degrees(y - found.middle) if angle else y - found.middle
     tolerance = math.degrees(found.tolerance) if angle else found.tolerance
     unit = "deg" if angle else "mm"
-    made = panels.page(f"{design.spec.name}: dwell, magnified", 0.5)
-    grid = made.add_gridspec(2, 1, height_ratios=(1.6, 1.0))
+    made, (upper, lower) = panels.stack(f"{design.spec.name}: dwell, magnified", (1.6, 1.0), 0.5)
     words = input_words(motion.input)
     x = np.degrees(q)
-    upper, lower = made.add_subplot(grid[0]), made.add_subplot(grid[1])
     labels = f"{output.name} from the\nmiddle of the band [{unit}]", "velocity [1]" if angle else "velocity [mm/rad]"
     for axes, label in zip((upper, lower), labels, strict=True):
-        style.curves(axes, f"{words} [deg]" if axes is lower else "", label)
-        panels.small_ticks(axes)
+        panels.curves(axes, f"{words} [deg]" if axes is lower else "", label)
         axes.set_xlim(float(x[0]), float(x[-1]))
         style.stretch(axes, math.degrees(found.start), math.degrees(found.start + found.width), color="#CFE8F7",
                       linewidth=0, zorder=0)  # fmt: skip
@@ -436,15 +306,13 @@ def zone_errors(design: Any, degrees: Reals, *, cams: bool = True) -> tuple[Real
     Parameters
         cams : bool - with what the cams add to the bed, where there are some
     """
-    with_cams, cylinder = courses(design)
-    start, speed = np.array([math.degrees(design.sync_start)]), with_cams.speed or 1.0
+    from gearlink.core.machines.flatbed_press.mechanism import bare
 
-    def bed(x: Reals) -> tuple[Reals, ...]:
-        return with_cams.at(x) if cams else tuple(design.bed.travel(np.radians(x), 1))
-
-    (one, one_rate, *_), (other, other_rate, *_) = bed(degrees), cylinder.at(degrees)
-    offset = float(bed(start)[0][0] - cylinder.at(start)[0][0])
-    return np.asarray(one - other - offset), np.asarray((one_rate - other_rate) * speed)
+    motion = (design if cams else bare(design)).moving
+    phi = np.append(design.sync_start, np.radians(degrees))
+    bed, cylinder = (each.course.rates(motion, phi, 1) for each in motion.outputs)
+    way, rate = (one - other for one, other in zip(bed, cylinder, strict=True))
+    return way[1:] - way[0], rate[1:] * design.input_speed
 
 
 _ROUNDING = 1e-9
@@ -455,15 +323,12 @@ def zone(design: Any) -> Figure:
     """Bed minus cylinder in the synchronous zone: of the drives alone, and with the cams."""
     start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
     x = np.linspace(start, end, 1161)
-    made = panels.page(f"{design.spec.name}: bed minus cylinder in the synchronous zone", 0.5)
-    grid, cams = made.add_gridspec(2, 1), design.spec.cam is not None
+    made, rows = panels.stack(f"{design.spec.name}: bed minus cylinder in the synchronous zone", (1.0, 1.0), 0.5)
     errors = {"drives alone": zone_errors(design, x, cams=False)}
-    if cams:
+    if design.spec.cam is not None:
         errors["with cams"] = zone_errors(design, x)
-    for row, (words, unit) in enumerate((("way", "mm"), ("speed", "mm/s"))):
-        axes = made.add_subplot(grid[row])
-        style.curves(axes, "input angle [deg]" if row else "", f"{words} [{unit}]")
-        panels.small_ticks(axes)
+    for row, (axes, words, unit) in enumerate(zip(rows, ("way", "speed"), ("mm", "mm/s"), strict=True)):
+        panels.curves(axes, "input angle [deg]" if row else "", f"{words} [{unit}]")
         axes.set_xlim(start, end)
         axes.axhline(0.0, color=style.GREY, linewidth=0.7)
         for (name, values), color, line in zip(errors.items(), panels.CAM_COLORS, panels.CAM_LINES, strict=False):
@@ -478,27 +343,20 @@ def zone(design: Any) -> Figure:
 
 def contact(design: Any) -> Figure:
     """Each cam coloured by its pressure angle, with the roller at twelve cam angles; red above the limit."""
-    from matplotlib.collections import LineCollection
-
     cams, limit = cam_sheets.discs(design), cam_sheets.pressure_limit(design)
-    made = panels.page(f"{design.spec.name}: pressure angle on the cam", min(1.0, 0.5 * len(cams) + 0.02))
-    grid = made.add_gridspec(len(cams), 1)
+    title, share = f"{design.spec.name}: pressure angle on the cam", min(1.0, 0.5 * len(cams) + 0.02)
+    made, rows = panels.stack(title, [1.0] * len(cams), share)
     theta = np.linspace(0.0, _TURN, 1441)
-    for row, cam in enumerate(cams):
-        axes = made.add_subplot(grid[row])
+    for axes, cam in zip(rows, cams, strict=True):
         worst = cam.max_pressure_angle
         at_worst = f"{math.degrees(worst.value):.4g}° at cam angle {math.degrees(worst.place):.4g}°"
         panels.drawing(axes, f"{cam.name}: at most {at_worst}, limit {limit:g}°, rollers every 30°")
         pitch, profile = cam.points(theta)
         angle = np.degrees(np.abs(cam.pressure_angle(0.5 * (theta[1:] + theta[:-1]))))
-        pieces = np.stack([np.column_stack([z.real, z.imag]) for z in (profile[:-1], profile[1:])], axis=1)
-        lines = LineCollection(list(pieces), cmap="viridis", linewidths=4.0, gid="pressure angle")
-        lines.set_array(angle)
-        lines.set_clim(0.0, limit)
-        axes.add_collection(lines)
+        pieces, bar = panels.by_value(axes, profile, angle, limit, 4.0, (1.02, 0.1, 0.025, 0.8))
+        bar.set_ylabel("|pressure angle| [deg]", fontsize=7)
         if (angle > limit).any():
-            red = LineCollection(list(pieces[angle > limit]), colors=style.WRONG, linewidths=4.6, gid="fails")
-            axes.add_collection(red)
+            panels.again(axes, pieces[angle > limit], style.WRONG, 4.6, gid="fails")
         for k in range(_ROLLERS):
             at = complex(pitch[k * (len(theta) - 1) // _ROLLERS])
             style.circle(axes, at, cam.roller_radius, color=style.GREY, linewidth=0.8, gid="roller")
@@ -507,9 +365,6 @@ def contact(design: Any) -> Figure:
         _worst(axes, cam, worst.place)
         axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10)
         axes.autoscale_view()
-        bar = made.colorbar(lines, cax=axes.inset_axes((1.02, 0.1, 0.025, 0.8)))
-        bar.set_label("|pressure angle| [deg]", fontsize=7)
-        bar.ax.tick_params(labelsize=7)
     return made
 
 

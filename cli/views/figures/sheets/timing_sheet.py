@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -37,12 +38,7 @@ def draw(design: Any) -> Figure:
     rings, marks, over = load(KINDS[design.kind].sheets["timing"])(design)
     made = panels.page(f"{design.spec.name}: timing", 0.72)
     axes: Any = made.add_subplot(projection="polar")
-    axes.set_theta_zero_location("N")
-    axes.set_theta_direction(-1)
-    axes.set_xticks(np.radians(np.arange(0, 360, 30)), [f"{d}°" for d in range(0, 360, 30)], fontsize=9)
-    axes.set_yticks([])
-    axes.spines["polar"].set_visible(False)
-    axes.grid(color=style.LIGHT, linewidth=0.6)
+    clock(axes, np.radians(np.arange(0, 360, 30)), [f"{d}°" for d in range(0, 360, 30)], linewidth=0.6, fontsize=9)
     narrow = [
         phase for i, ring in enumerate(rings) for phase in _ring(axes, ring, _INNER + _STEP * (len(rings) - 1 - i))
     ]
@@ -58,6 +54,22 @@ def draw(design: Any) -> Figure:
     axes.plot([], [], " ", label="rings from outside: " + ", ".join(ring.name for ring in rings))
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.05), frameon=False, fontsize=8)
     return made
+
+
+def clock(axes: Any, angles: Any, names: Sequence[str], *, linewidth: float, **look: Any) -> None:
+    """Axes of an angle that is 0 at the top and runs clockwise, with names at some angles [rad]."""
+    axes.set_theta_zero_location("N")
+    axes.set_theta_direction(-1)
+    axes.set_xticks(angles, names, **look)
+    axes.set_yticks([])
+    axes.spines["polar"].set_visible(False)
+    axes.grid(color=style.LIGHT, linewidth=linewidth)
+
+
+def along(angle: float) -> float:
+    """How words along a ring are turned [deg], so that none stand on their heads."""
+    degrees = math.degrees(angle) % 360.0
+    return -degrees if degrees <= 90.0 or degrees >= 270.0 else 180.0 - degrees
 
 
 def _ring(axes: Axes, ring: Ring, bottom: float) -> list[panels.Phase]:
@@ -82,45 +94,33 @@ def _limits(phase: panels.Phase) -> str:
 
 def _name(axes: Axes, phase: panels.Phase, angle: float, radius: float, *, strong: bool = False) -> None:
     """A name along its ring; of a stretch with where it starts and ends."""
-    degrees = math.degrees(angle) % 360.0
-    turned = -degrees if degrees <= 90.0 or degrees >= 270.0 else 180.0 - degrees
     words = phase.name if strong else f"{phase.name}\n{_limits(phase)}"
     look: dict[str, Any] = {"fontsize": 7.0, "ha": "center", "va": "center", "zorder": 7, "rotation_mode": "anchor"}
     if strong:
         look |= {"fontsize": 7.5, "fontweight": "bold", "path_effects": style.outlined()}
-    axes.text(angle, radius, words, rotation=turned, **look)
+    axes.text(angle, radius, words, rotation=along(angle), **look)
 
 
 def press(design: Any) -> Timing:
     """Bed, printing and cams of a press over its input."""
-    turn = np.radians(np.arange(3601) * 0.1)
-    speed = design.bed.travel(turn, 1).first
-    change = [float(np.degrees(turn[i])) for i in np.flatnonzero(np.diff(np.sign(speed)) != 0.0) if 0 < i < 3599]
-    back = max(change, key=lambda d: float(design.bed.travel(math.radians(d)).value))
+    from gearlink.core.machines.flatbed_press.zone import forward_stroke_end
+
+    back = math.degrees(forward_stroke_end(design.bed))
     sync = math.degrees(design.sync_start), math.degrees(design.sync_end)
     rings = [
         Ring("bed", (panels.Phase("forward", 0.0, back), panels.Phase("back", back, 360.0))),
         Ring("print", (panels.Phase("sync", *sync),)),
     ]
     if design.spec.cam is not None:
-        rings.append(Ring("cams", tuple(_at_input(design, segment) for segment in design.follower.segments)))
+        rings.append(Ring("cams", panels.phases_of(design.moving.outputs[0])))
     return rings, [("zone begins", sync[0]), ("zone ends", sync[1])], "input"
-
-
-def _at_input(design: Any, segment: Any) -> panels.Phase:
-    """A stretch of the cam in angles of the input."""
-    ends = np.array([segment.start, segment.end])
-    start, end = np.degrees(design.bed.input_angle(ends)).tolist()
-    return panels.Phase(segment.phase, start, end)
 
 
 def gripper(design: Any) -> Timing:
     """Arm and sheet of a gripper over its cylinder."""
-    from gearlink.core.machines.swing_gripper.law import PHASES
+    from gearlink.core.machines.swing_gripper.mechanism import without_cams
 
-    starts = design.law.starts
-    named = zip(PHASES, starts, starts[1:], strict=False)
-    arm = Ring("arm", tuple(panels.Phase(name, start, end) for name, start, end in named))
+    arm = Ring("arm", panels.phases_of(without_cams(design).outputs[0]))
     handover = design.motion.handover
     held = Ring("sheet", (panels.Phase("contact", 0.0, handover), panels.Phase("free", handover, 360.0)))
     return [arm, held], [("bite", 0.0), ("handover", handover)], "cylinder"

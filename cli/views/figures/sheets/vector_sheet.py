@@ -13,6 +13,7 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import labels, panels, scene_axes, style
 from gearlink.cli.views.figures.sheets import motion_sheet
 from gearlink.cli.views.scenes import linkages, of_motion, shown
+from gearlink.cli.views.scenes.of_motion import Frame
 from gearlink.cli.views.scenes.scene import Body, Reals
 from gearlink.core.mechanism import vectors
 
@@ -107,7 +108,7 @@ def default_places(design: Any) -> list[float]:
     return [round(each, 4) for each in dict.fromkeys(shown_)]
 
 
-def fraction_at(frame: shown.Frame, q: float) -> float:
+def fraction_at(frame: Frame, q: float) -> float:
     """The fraction of the loop at which the scene stands at an input, within 1e-6 of it."""
     many = np.linspace(0.0, 1.0, 3601)
     inputs = frame.inputs(many)
@@ -115,10 +116,6 @@ def fraction_at(frame: shown.Frame, q: float) -> float:
     low, high = max(k - 1, 0), min(k + 1, len(many) - 1)
     fine = np.linspace(many[low], many[high], 2001)
     return float(fine[int(np.argmin(np.abs(frame.inputs(fine) - q)))])
-
-
-def _without_remark(part: Any) -> Any:
-    return replace(part, label="") if " " in getattr(part, "label", "") else part
 
 
 def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
@@ -137,10 +134,9 @@ def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
     scene_axes.draw(axes, scene)
 
 
-def frame_of(design: Any) -> shown.Frame:
+def frame_of(design: Any) -> Frame:
     """Where the drawing stands: in the kind's own scene, or in that of the motion."""
-    found = shown.frame_of(design, linkages.builder(design.kind))
-    return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each), design.moving)
+    return shown.frame_of(design, linkages.builder(design.kind)) or of_motion.frame(design)
 
 
 def _short(name: str, others: Iterable[str]) -> str:
@@ -224,10 +220,8 @@ def polygon(axes: Axes, design: Any, q: float, order: int) -> None:
 
 
 def _vector_axes(axes: Axes, title: str) -> None:
-    style.curves(axes, "", "")
-    panels.heading(axes, title)
+    panels.curves(axes, "", "", title)
     axes.set_aspect("equal", adjustable="datalim")
-    panels.small_ticks(axes)
     panels.few_ticks(axes.xaxis, 4)
     panels.few_ticks(axes.yaxis, 4)
     axes.tick_params(labelsize=7)

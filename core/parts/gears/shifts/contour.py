@@ -44,6 +44,8 @@ _DIAGONALS, _UPRIGHTS, _POINTS = 81, 41, 33
 _NEAR = 0.05
 """Points that are nearer, in both shifts, tell nothing new."""
 _ROOM, _LEAST, _MOST = 0.5, -0.8, 1.6
+_STEP = 0.15
+"""Points of a line farther apart than this, in both shifts, belong to different branches."""
 
 
 def _has_mesh(data: GearData) -> bool:
@@ -154,6 +156,11 @@ class BlockingContour:
             known = list(found[line.name])
             found[line.name] += [point for point in self._upright(line) if not _near(point, known)]
         return found
+
+    @property
+    def branches(self) -> dict[str, list[list[Pair]]]:
+        """The points of each line in the order of its branches: each goes on at both ends to what is next, and near."""
+        return {name: _branches(points) for name, points in self.points.items()}
 
     def _upright(self, line: Line) -> list[Pair]:
         """Where a limit crosses lines of constant x_1."""
@@ -284,6 +291,24 @@ class BlockingContour:
 
 def _state(line: Line, value: float) -> str:
     return "" if not line.blocks or value != value else "good" if value >= 0.0 else "blocked"
+
+
+def _branches(points: list[Pair]) -> list[list[Pair]]:
+    left, branches = list(points), []
+    while left:
+        branch = [left.pop(0)]
+        for _ in range(2):
+            while near := [point for point in left if max(_apart(branch[-1], point)) < _STEP]:
+                following = min(near, key=lambda point: sum(d * d for d in _apart(branch[-1], point)))
+                left.remove(following)
+                branch.append(following)
+            branch.reverse()
+        branches.append(branch)
+    return branches
+
+
+def _apart(one: Pair, other: Pair) -> Pair:
+    return abs(one[0] - other[0]), abs(one[1] - other[1])
 
 
 def _near(point: Pair, known: list[Pair]) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import between, turned
 from gearlink.core.mechanism.dynamics import Mass
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -66,7 +66,8 @@ def four_bar_motion(linkage: FourBar) -> Motion:
         links = four_bar(linkage, phi, order)
         return Mechanism(links, four_bar_pins(links), "crank")
 
-    return Motion(make, Input("crank_angle"), (Output("Rocker CD", turned("rocker")),))
+    outputs = (Output("Rocker CD", turned("rocker")),)
+    return Motion(make, Input("crank_angle"), outputs, transmission=between("coupler", "rocker"))
 
 
 def full_balance(linkage: FourBar, masses: Mapping[str, Mass], at_c: float = 0.0) -> dict[str, complex]:
