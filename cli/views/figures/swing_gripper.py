@@ -97,7 +97,7 @@ def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
             repeats=0,
             fill=pale(style.GREY, 0.1),
             label="cylinder",
-            name=f"impression cylinder, radius {radius:g} mm",
+            name=f"feed drum, radius {radius:g} mm",
             **shared,  # type: ignore[arg-type]
         ),
         Body(outline=pad, width=5.0, **{**shared, "color": style.RED}),  # type: ignore[arg-type]

@@ -92,9 +92,7 @@ def test_drum_touches_the_tip_on_the_line_of_centres(gripper: Sheet) -> None:
     _, figure = gripper
     axes = panel(figure, "Mechanism")
     center = 498.0 + 55.0j + 435.0 * np.exp(1j * math.radians(99.8))
-    drum, tip_path = (
-        points(named(axes)[name]) for name in ("impression cylinder, radius 135 mm", "path of the sheet's edge")
-    )
+    drum, tip_path = (points(named(axes)[name]) for name in ("feed drum, radius 135 mm", "path of the sheet's edge"))
     np.testing.assert_allclose(np.abs(drum - center), 135.0, rtol=1e-12)
     # The path is sampled, and leaves the drum with the square of the angle: 0.03 mm a degree.
     assert np.abs(tip_path - center).min() == pytest.approx(135.0, abs=0.1)
@@ -104,7 +102,7 @@ def test_drum_touches_the_tip_on_the_line_of_centres(gripper: Sheet) -> None:
 @pytest.mark.slow
 def test_given_axis_of_the_cylinder_is_drawn(gripper: Sheet) -> None:
     figure = sheet(PAPER, "gripper", cylinder__center=[430.0, 480.0]).figure
-    drum = points(named(panel(figure, "Mechanism"))["impression cylinder, radius 135 mm"])
+    drum = points(named(panel(figure, "Mechanism"))["feed drum, radius 135 mm"])
     np.testing.assert_allclose(np.abs(drum - (430.0 + 480.0j)), 135.0, rtol=1e-12)
 
 
