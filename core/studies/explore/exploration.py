@@ -8,6 +8,7 @@ from typing import Any
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property, keep
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import amount
 from gearlink.core.studies.codes import FEASIBLE, RANGE_END
 from gearlink.core.studies.explore.chunks import Miss, chunk_of, together
@@ -19,6 +20,7 @@ from gearlink.core.studies.study.spec import StudySpec
 
 _FEW = 0.01
 _EDGE = 1e-9
+_FARTHER = 0.01  # of a range: beyond its end
 
 
 class Exploration(Design):
@@ -126,21 +128,30 @@ class Exploration(Design):
         return FEASIBLE.check(status, what, share, _FEW, side=">=", aside=aside, fix=fix, note=note)
 
     def check_range_end(self) -> Iterator[Check]:
-        """GL162 of each variable that kept designs have at an end of its range."""
+        """GL162 of each variable that kept designs have at an end of its range, where its key takes values beyond."""
         rows = self.found.rows
         for i, variable in enumerate(self.problem.variables):
             if variable.values or variable.times or variable.low == variable.high or not rows:
                 continue
             values = [row.variables[i][1] for row in rows]
-            for end, limit in zip(("lower", "upper"), _ends(variable), strict=True):
+            for end, limit, way in zip(("lower", "upper"), _ends(variable), (-1.0, 1.0), strict=True):
                 count = sum(abs(value - limit) <= _EDGE * max(1.0, abs(limit)) for value in values)
-                if count:
+                if count and self._goes_on(variable, limit, way):
                     share_of_rows = f"{count} of {amount(len(rows), 'row')}"
                     what = f"{variable.path} at the {end} end of its range"
                     shown, fix = Shown(float(limit)), f"extend the range of {variable.path} beyond {limit:g}"
                     yield RANGE_END.check(
                         "warn", what, float(limit), float(limit), shown=shown, aside=share_of_rows, fix=fix
                     )
+
+    def _goes_on(self, variable: Variable, limit: float, way: float) -> bool:
+        """Whether the key of a variable takes a value beyond an end of its range, a whole one beside whole ends."""
+        low, high = _ends(variable)
+        whole = low.is_integer() and high.is_integer()
+        step = variable.step or (1.0 if whole else _FARTHER * (high - low))
+        farther = limit + way * step
+        value = int(farther) if farther.is_integer() else farther
+        return changed(self.problem.base.spec(), [(variable.path, value)]) is not None
 
 
 def _ends(variable: Variable) -> tuple[float, float]:

@@ -293,6 +293,18 @@ def test_a_design_that_its_own_class_sees_otherwise_is_a_fault_of_the_program(
         _ = found.found.rows
 
 
+def test_a_range_that_ends_with_its_key_is_not_to_be_extended() -> None:
+    """No shaft is thinner than 0 mm; one of 5 mm can be, and a gear can have fewer teeth, or more."""
+    cam, pair = factory.worked("lift_cam"), factory.worked("gear_pair")
+    for low, told in ((0, 0), (5, 1)):
+        shaft = {"cam.shaft_radius": {"from": low, "to": 10, "step": 5}}
+        thin = study(design=cam, command="cam", variables=shaft, minimize={"max_radius": 0.1})
+        assert len(list(thin.check("range-end"))) == told
+    teeth = {"teeth[1]": {"from": 60, "to": 62, "step": 1}}
+    few = study(design=pair, command="gear", variables=teeth, minimize={"reference_center_distance": 0.1})
+    assert any("teeth[1] at the lower end" in check.message for check in few.check("range-end"))
+
+
 def test_what_the_base_fails_is_said_to_be_left_out() -> None:
     """A base whose gears collide asks no design to keep its gears apart, and does not say that all is well."""
     base = factory.worked("thesis_example_3_as_printed")
