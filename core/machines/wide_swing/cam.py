@@ -846,11 +846,12 @@ class WideSwingCam(StrokeCam):
     def loop_margin(self) -> float:
         """Minimum of (dTheta/dtheta) rho^2/(1 - cos phi) over the stroke: the profile exists where it is positive.
 
-        h = (1 - lambda) e/s + lambda (1 + A), at mid-swing 6 q lambda^2/rho_mid
+        h = (1 - lambda) e/s + lambda (1 + A), at mid-swing 6 q lambda^2/rho_mid, infinite there where e is
         """
-        if self._middle_gap != 0.0:
-            return math.inf if self._middle_gap > 0.0 else -math.inf
-        return min(*self.least_loop_measures, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
+        if self._middle_gap < 0.0:
+            return -math.inf
+        there = math.inf if self._middle_gap > 0.0 else 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius
+        return min(*self.least_loop_measures, there)
 
     @cached_property
     def least_loop_measures(self) -> tuple[float, ...]:
@@ -863,13 +864,17 @@ class WideSwingCam(StrokeCam):
     def _loop(self, value: float) -> NoSolution:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
         fix = f"reduce {self.angle_words} to {safely_below(safe)} deg or less"
+        if self.given_rocker_radius is not None:
+            fix = f"omit the rocker radius, and {fix}"
         return NoSolution(f"the pitch curve has a loop at mid-swing (measure {short(value)}, limit > 0)", fix=fix)
 
     def require_profile(self) -> None:
         """Refuse a profile that does not exist.
 
         Raises
-            NoSolution - for a rocker radius above that of (18), (24), a loop, or a phase angle that is not positive
+            NoSolution - for a rocker radius above that of (18), (24), or a loop
+        Notes
+            Without one the polar angle rises over the whole stroke, and the phase angle is above 0.
         Source
             wide-swing dissertation (21), (22), (25); the loop condition: own derivation
         """
@@ -884,14 +889,6 @@ class WideSwingCam(StrokeCam):
             )
         if self.loop_margin <= 0.0:
             raise self._loop(self.loop_margin)
-        for end, share in zip(self.ends, (self.middle, 1.0 - self.middle), strict=True):
-            turned = self.correction(end)
-            phase = share * self.cycle_angle - turned
-            if phase <= 0.0:
-                raise NoSolution(
-                    f"phase angle {math.degrees(phase):.4g} deg of the run-up is not above 0",
-                    fix=f"increase {self.angle_words} above {safely_above(math.degrees(turned / share))} deg",
-                )
 
     @cached_property
     def pressing(self) -> tuple[Extreme, Extreme]:

@@ -20,11 +20,10 @@ TURNABILITY = Rule(
 PROFILE_EXISTS = Rule(
     "GL505",
     "cam profile does not exist",
-    "The pitch curve makes a loop, or the run-up takes no cam angle, or a twin-rocker turns no faster than its cam (no "
-    "value is given then).",
+    "The pitch curve makes a loop, or a twin-rocker turns no faster than its cam (no value is given then).",
     "A cam with a loop cannot be made.",
     "Change cycle_angle, cycle.working or the swing as the message says; a twin-rocker needs a swing above 100 deg.",
-    "Phi = phi_ud/2 - xi > 0, and (dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke",
+    "(dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke, and with it Phi = phi_ud/2 - xi > 0",
     "wide-swing dissertation (21), (22), (25); the loop: own derivation",
     ("profile-exists",),
     ("cycle_angle", "cycle", "swing"),

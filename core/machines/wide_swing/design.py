@@ -1100,7 +1100,7 @@ class WideSwingDesign(Design):
         )
 
     def check_profile_exists(self) -> Check:
-        """GL505: a cam for this stroke, no loop, and a phase angle above zero."""
+        """GL505: a cam for this stroke, and no loop."""
         if self.refusal is not None:
             return PROFILE_EXISTS.check("fail", self.refusal.message, None, 0.0, fix=self.refusal.fix)
         margin = self.cam.loop_margin

@@ -264,11 +264,34 @@ def test_loop_of_a_soft_centred_law() -> None:
         assert bool(np.all(np.diff(theta) > 0.0)) is rises
 
 
+def test_loop_beside_mid_swing_with_a_rocker_radius_given() -> None:
+    """A shorter rocker straightens the cusp; what is left of a loop the signs of sampled polar angles show."""
+    law = ElasticLaw(Spring(4.0, 0.05), math.radians(160.0))
+    nominal = WideSwingCam("twin-rocker", law, math.radians(150.0), 100.0, 2.0)
+    k = np.linspace(0.0, 0.5, 2001)
+    for share, exists in ((0.9999, False), (0.999, False), (0.995, True), (0.5, True)):
+        shorter = replace(nominal, given_rocker_radius=share * nominal.rocker_radius)
+        phi = (shorter.law.invariants(k, 0)[0] - 0.5) * law.swing
+        arm = -1.0 + shorter.ratio * np.exp(-1j * phi)
+        polar = np.unwrap(np.angle(-arm)) + (k - 0.5) * shorter.cycle_angle
+        assert bool(np.all(np.diff(polar) > 0.0)) is exists
+        # (dTheta/dtheta) rho^2/(1 - cos phi), by central differences over 2.5e-4 of the stroke: their squares are left
+        middle = 0.5 * (phi[1:] + phi[:-1])
+        rate = np.diff(polar) / (np.diff(k) * shorter.cycle_angle)
+        size = np.abs(-1.0 + shorter.ratio * np.exp(-1j * middle)) ** 2
+        far = np.abs(middle) > 0.02
+        measured = float(np.min((rate * size / (1.0 - np.cos(middle)))[far]))
+        assert shorter.loop_margin == pytest.approx(measured, abs=1e-5)
+        if not exists:
+            with pytest.raises(NoSolution, match="loop at mid-swing") as refusal:
+                shorter.require_profile()
+            assert refusal.value.fix == "omit the rocker radius, and reduce the cycle angle to 113.1 deg or less"
+
+
 def test_given_rocker_radius() -> None:
     nominal = cam("twin-cam", 200.0)
     shorter = replace(nominal, given_rocker_radius=0.99 * nominal.rocker_radius)
     shorter.require_profile()
-    assert shorter.loop_margin == math.inf
     # one per cent is enough for 45 deg close to mid-swing, 90 deg at it
     angles = np.abs(shorter.points(np.array([0.49, 0.499, 0.5])).pressure_angle)
     assert angles[1] > math.radians(45.0) > angles[0]
