@@ -20,7 +20,7 @@ from sweeps import examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.trials import BUDGET
-from gearlink.core.machines.six_bar import design as loop
+from gearlink.core.machines.six_bar import loop
 from gearlink.core.machines.six_bar.loop import Course, Follower, SixBar, reduced, train_relation
 from gearlink.core.machines.six_bar.mechanism import pins
 from gearlink.core.machines.six_bar.spec import GearedSixBarSpec, SixStart
