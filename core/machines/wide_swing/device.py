@@ -146,6 +146,19 @@ class DeviceGeometry:
         """l where sin(phi/2) = m * sine."""
         return np.hypot(self.shortest, self.reach * self.half_sine * sine)
 
+    def half_cosine_at(self, cosine: Reals) -> Reals:
+        """cos(phi/2); cosine that of the pendulum angle."""
+        return np.hypot(self.half_cosine, self.half_sine * cosine)
+
+    def angle(self, sine: Reals, cosine: Reals) -> Reals:
+        """phi."""
+        return np.asarray(2.0 * np.arctan2(self.half_sine * sine, self.half_cosine_at(cosine)))
+
+    def lever(self, sine: Reals, cosine: Reals) -> Reals:
+        """dl/dphi = lambda sin(phi)/l."""
+        sine_of_swing = 2.0 * self.half_sine * sine * self.half_cosine_at(cosine)
+        return np.asarray(self.ratio * sine_of_swing / self.length(sine))
+
     def extension(self, sine: Reals) -> Reals:
         """l - l0 where sin(phi/2) = m * sine."""
         return (self.reach * self.half_sine * sine) ** 2 / (self.length(sine) + self.shortest)

@@ -173,7 +173,7 @@ class ElasticLaw:
         """F(u) = gamma sqrt(N) |dk/du| from sin u and cos u of the pendulum angle, 0 at mid-swing."""
         g = self.geometry
         stretch = (g.longest + g.length(sine)) / (g.ratio * g.mean_force(sine))
-        return np.sqrt(stretch) / np.hypot(g.half_cosine, g.half_sine * cosine)
+        return np.sqrt(stretch) / g.half_cosine_at(cosine)
 
     def _integrand(self, z: Reals) -> Reals:
         """F du/dz with z = 0 at the start of the stroke and K at mid-swing; du/dz = l/L."""
@@ -200,8 +200,7 @@ class ElasticLaw:
     @cached_property
     def velocity_peak(self) -> float:
         """B = b(1/2) (dissertation (8), (13)) [-]."""
-        g = self.geometry
-        return self._rate * math.sqrt(g.stroke * float(g.mean_force(np.zeros(1))[0]))
+        return float(self._velocity(np.zeros(1), np.ones(1))[0])
 
     @cached_property
     def middle_jerk(self) -> float:
@@ -284,11 +283,10 @@ class ElasticLaw:
     def _view(self, sine: Reals, cosine: Reals) -> MiddleView:
         """The same from sin u and cos u, both signs of u."""
         g = self.geometry
-        half = np.arctan2(g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine))
         velocity = self._velocity(sine, cosine)
         spent = self.energy_parameter * g.extension(sine) * g.mean_force_to_middle(sine)
         deficit = spent / (self.velocity_peak + velocity)
-        return MiddleView(2.0 * half, velocity, deficit, -self._acceleration(sine, cosine))
+        return MiddleView(g.angle(sine, cosine), velocity, deficit, -self._acceleration(sine, cosine))
 
     # The same by the pendulum angle u, 0 at mid-swing: no place has to be solved for
 
@@ -313,7 +311,7 @@ class ElasticLaw:
     def displacement(self, sine: Reals, cosine: Reals) -> Reals:
         """a in the first half from sin u and cos u, counted from the end of the half stroke that keeps the digits."""
         g = self.geometry
-        s, c = g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine)
+        s, c = g.half_sine * sine, g.half_cosine_at(cosine)
         from_middle = 0.5 - 2.0 / self.swing * np.arctan2(s, c)
         turned = np.arctan2(
             g.half_sine * cosine**2 / (c + sine * g.half_cosine), g.half_cosine * c + g.half_sine**2 * sine
@@ -325,23 +323,15 @@ class ElasticLaw:
         energy = g.mean_force(sine) / (g.longest + g.length(sine))
         return self._rate * g.reach * g.half_sine * np.sqrt(energy) * cosine
 
-    def _sine_of_swing(self, sine: Reals, cosine: Reals) -> Reals:
-        """sin |phi| = 2 sin(phi/2) cos(phi/2)."""
-        g = self.geometry
-        return 2.0 * g.half_sine * sine * np.hypot(g.half_cosine, g.half_sine * cosine)
-
     def _acceleration(self, sine: Reals, cosine: Reals) -> Reals:
         g = self.geometry
-        lever = g.ratio * self._sine_of_swing(sine, cosine) / g.length(sine)
-        return 0.5 * self.energy_parameter * self.swing * g.force(sine) * lever
+        return 0.5 * self.energy_parameter * self.swing * g.force(sine) * g.lever(sine, cosine)
 
     def _jerk(self, sine: Reals, cosine: Reals) -> Reals:
         g = self.geometry
         s = (g.half_sine * sine) ** 2
-        length = g.length(sine)
-        lever = g.ratio * self._sine_of_swing(sine, cosine) / length
-        bend = g.ratio * (g.shortest + 2.0 * s) * (g.shortest - 2.0 * g.ratio * s) / length**3
-        change = g.force(sine) * bend + g.stiffness * lever**2
+        bend = g.ratio * (g.shortest + 2.0 * s) * (g.shortest - 2.0 * g.ratio * s) / g.length(sine) ** 3
+        change = g.force(sine) * bend + g.stiffness * g.lever(sine, cosine) ** 2
         return -0.5 * self.energy_parameter * self.swing**2 * self._velocity(sine, cosine) * change
 
     def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
@@ -463,9 +453,10 @@ def legacy_law(
     require_swing(swing)
     if steps < 1:
         raise NoSolution(f"{steps} steps: the march needs at least 1", key="iteration_steps")
-    ways = [_HalfSwing(device, swing, inertia)]
+    geometry = DeviceGeometry(device, swing)
+    ways = [_HalfSwing(geometry, inertia)]
     if inertia is not None:
-        ways.append(_HalfSwing(device, swing, lambda a: inertia(1.0 - a)))
+        ways.append(_HalfSwing(geometry, lambda a: inertia(1.0 - a)))
     parameter, rows = (2.0 / ways[0].velocity(0.5, 1.0)) ** 2, []
     for passes in range(1, _MOST_PASSES + 1):
         ends = [_march(way, parameter, steps) for way in ways]
@@ -486,17 +477,16 @@ def legacy_law(
 class _HalfSwing:
     """b(a) of (6), (11), (16), (17) in plain scalars; `inertia`: j(a), none: 1."""
 
-    device: Device
-    swing: float
+    geometry: DeviceGeometry
     inertia: Callable[[float], float] | None = None
 
     def velocity(self, a: float, parameter: float) -> float:
-        geometry = DeviceGeometry(self.device, self.swing)
-        longest = geometry.longest
-        angle = (0.5 - a) * self.swing
+        geometry = self.geometry
+        device, swing = geometry.device, geometry.swing
+        angle = (0.5 - a) * swing
         length = math.hypot(geometry.shortest, geometry.reach * math.sin(0.5 * angle))
-        product = math.sin(0.25 * self.swing - 0.5 * angle) * math.sin(0.25 * self.swing + 0.5 * angle)
-        x = 4.0 * self.device.pivot_ratio * product / (longest + length)
+        product = math.sin(0.25 * swing - 0.5 * angle) * math.sin(0.25 * swing + 0.5 * angle)
+        x = 4.0 * device.pivot_ratio * product / (geometry.longest + length)
         if x < 0.0:
             raise NoSolution(
                 f"the source's iteration leaves the swing, at {short(a)} of it",
@@ -504,9 +494,9 @@ class _HalfSwing:
                 fix="raise iteration_steps, or omit method, which gives the law by its integral",
             )
         energy = x
-        if isinstance(self.device, Spring):
-            energy *= (1.0 + self.device.stretch_ratio) * geometry.stroke - 0.5 * x
-        elif isinstance(self.device, Gravity):
+        if isinstance(device, Spring):
+            energy *= (1.0 + device.stretch_ratio) * geometry.stroke - 0.5 * x
+        elif isinstance(device, Gravity):
             energy = 2.0 * product
         return math.sqrt(parameter * energy if self.inertia is None else parameter * energy / self.inertia(a))
 

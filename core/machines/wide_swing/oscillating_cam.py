@@ -536,9 +536,7 @@ def need_home(cam: OscillatingCam, k: Reals) -> Reals:
     span = cam.drive.crank_span
     if isinstance(cam.law, AimedLaw):
         law = cam.law.law
-        a, b = law.invariants(k, 1)
-        inertia = np.array([law.inertia_at(share) for share in a.ravel().tolist()]).reshape(a.shape)
-        pace = inertia * b / law.device_torque(k)
+        pace = law.inertia(k) * law.invariants(k, 1)[1] / law.device_torque(k)
     else:
         view = cam.law.middle_view(k)
         pace = view.velocity / view.acceleration

@@ -243,22 +243,22 @@ class DeviceSize:
         motion, g = self.motion, self._geometry
         sine, cosine = motion.law.pendulum(k)
         side = np.where(k < motion.law.middle_place, 1.0, -1.0)
-        half = np.arctan2(g.half_sine * np.abs(sine), np.hypot(g.half_cosine, g.half_sine * cosine))
+        angle = g.angle(np.abs(sine), cosine)
         unloader = self.spec.unloader
         if unloader.type == "gravity":
             length, force = np.full_like(k, np.nan), np.full_like(k, self.force_max)
-            lever, size = np.sin(2.0 * half), unloader.distance * self.force_max
+            lever, size = np.sin(angle), unloader.distance * self.force_max
         else:
             arm = unloader.arm
             size = self.strength * (arm if unloader.type == "pneumatic" else arm * arm)
             length, force = arm * g.length(sine), size / arm * g.force(sine)
-            lever = g.force(sine) * g.ratio * np.sin(2.0 * half) / g.length(sine)
+            lever = g.force(sine) * g.lever(np.abs(sine), cosine)
         inertia = motion.inertia * motion.swing / motion.stroke_time**2 * motion.torque(k)
         torque, stored = 1e-3 * size * side * lever, 1e-3 * size * g.energy(sine, cosine)
         moving = motion.inertia * motion.swing / motion.stroke_time**2 * 0.5 * motion.swing * motion.kinetic(k)
         columns = {
             "k": (k, "1"),
-            "angle": (np.degrees(-2.0 * side * half), "deg"),
+            "angle": (np.degrees(-side * angle), "deg"),
             "device_length": (length, "mm"),
             "device_force": (force, "N"),
             "device_torque": (torque, "N m"),

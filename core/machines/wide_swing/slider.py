@@ -14,6 +14,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 
@@ -31,6 +32,8 @@ from gearlink.core.numerics.periodic import CosineSeries, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.slider_crank import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank import slider_sweep
+
+Number = TypeVar("Number", float, Reals)
 
 _TOO_SHARP = (
     "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
@@ -210,17 +213,18 @@ class SliderLaw:
         """
         psi = (share - 0.5) * self.swing + self.drive.middle_angle - 0.5 * math.pi
         _, first = slider_place(psi, self.drive.crank, self.drive.rod, self.drive.offset, 1)
-        rate = self.swing / self.stroke * first
-        return self.rocker_share + (1.0 - self.rocker_share) * rate * rate
+        return self._inertia(self.swing / self.stroke * first)
 
-    def _inertia(self, rate: Reals) -> Reals:
-        result: Reals = self.rocker_share + (1.0 - self.rocker_share) * rate**2
-        return result
+    def inertia(self, k: Reals) -> Reals:
+        """j at fractions of the stroke."""
+        return self._inertia(self._slider_rate(self._angle(*self.pendulum(k)))[0])
+
+    def _inertia(self, rate: Number) -> Number:
+        return self.rocker_share + (1.0 - self.rocker_share) * rate * rate
 
     def _angle(self, sine: Reals, cosine: Reals) -> Reals:
         """phi where sin(phi/2) = -m sin u."""
-        g = self.geometry
-        return -2.0 * np.arctan2(g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine))
+        return -self.geometry.angle(sine, cosine)
 
     def _slowness(self, sine: Reals, cosine: Reals) -> Reals:
         root = np.sqrt(self._inertia(self._slider_rate(self._angle(sine, cosine))[0]))
@@ -257,8 +261,7 @@ class SliderLaw:
     @cached_property
     def middle_place(self) -> float:
         """k at which the rocker passes mid-swing."""
-        half = np.array([0.5 * self.clock.span])
-        return float(self.clock.integral(half)[0]) / self.clock.total
+        return self.share_at(0.5 * math.pi)
 
     @cached_property
     def velocity_peak(self) -> float:
@@ -298,7 +301,7 @@ class SliderLaw:
 
     def share_at(self, v: float) -> float:
         """k at an angle v from the start."""
-        return float(self._from_start.time(np.array([v]))[0]) / self._total
+        return float(self.share_from(np.array([v]), late=False)[0])
 
     def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity and acceleration invariants of the rocker.
@@ -313,7 +316,7 @@ class SliderLaw:
         Raises
             NoSolution - for k outside 0 to 1
         """
-        sine, cosine = self._pendulum(k)
+        sine, cosine = self.pendulum(k)
         first_half = self._half.displacement(np.abs(sine), cosine)
         return (np.where(sine < 0.0, 1.0 - first_half, first_half), *self._rates(sine, cosine))[: order + 1]
 
@@ -327,7 +330,7 @@ class SliderLaw:
         Raises
             NoSolution - for k outside 0 to 1
         """
-        sine, cosine = self._pendulum(k)
+        sine, cosine = self.pendulum(k)
         b, c = self._rates(sine, cosine)
         rate, slope = self._slider_rate(self._angle(sine, cosine))
         torque: Reals = self._inertia(rate) * c + (1.0 - self.rocker_share) * rate * slope * b * b
@@ -335,9 +338,7 @@ class SliderLaw:
 
     def kinetic(self, k: Reals) -> Reals:
         """Energy of motion over J_ref (gamma/T)^2/2: j b^2."""
-        sine, cosine = self._pendulum(k)
-        rate = self._slider_rate(self._angle(sine, cosine))[0]
-        return np.asarray(self._inertia(rate) * self._rates(sine, cosine)[0] ** 2)
+        return np.asarray(self.inertia(k) * self.invariants(k, 1)[1] ** 2)
 
     def slider_invariants(self, k: Reals) -> tuple[Reals, Reals, Reals]:
         """Displacement, velocity and acceleration invariants of the slider.
@@ -351,7 +352,7 @@ class SliderLaw:
         Raises
             NoSolution - for k outside 0 to 1
         """
-        sine, cosine = self._pendulum(k)
+        sine, cosine = self.pendulum(k)
         start = self.drive.depth(np.array([-0.5 * self.swing]))[0]
         place = self.drive.depth(self._angle(sine, cosine))[0]
         return (place - start) / self.stroke, *self._slider_rates(sine, cosine)
@@ -379,16 +380,12 @@ class SliderLaw:
         inertia = self._inertia(rate)
         inertia_change = 2.0 * (1.0 - self.rocker_share) * rate * change
         energy = g.energy(sine, cosine)
-        lever = 2.0 * g.half_sine * sine * np.hypot(g.half_cosine, g.half_sine * cosine) / g.length(sine)
-        push = g.ratio * self.swing * g.force(sine) * lever
+        push = self.swing * g.force(sine) * g.lever(sine, cosine)
         b = np.sqrt(parameter * energy / inertia)
         return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia
 
     def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
         """sin u and cos u of every k, sin(phi/2) = -sin(gamma/4) sin u."""
-        return self._pendulum(k)
-
-    def _pendulum(self, k: Reals) -> tuple[Reals, Reals]:
         return kept_for(self._kept, k, self._turned)
 
     @cached_property
@@ -501,12 +498,15 @@ class AimedLaw:
             B - b is the integral of the acceleration, whose error is some ulp of its peak: beside k* the deficit keeps
             1e-15/|k - k*| of itself.
         """
-        sine, cosine = self.law.pendulum(np.asarray(k, dtype=np.float64))
-        late = k > self.place
-        behind = self.turns[1] - np.arctan2(cosine, -sine)
-        before = self.turns[0] + np.arctan2(cosine, sine)
-        turn = np.where(late, np.maximum(behind, 0.0), np.where(k < self.place, np.minimum(before, 0.0), 0.0))
-        return self._view(sine, cosine, turn)
+        k = np.asarray(k, dtype=np.float64)
+        return self._view(*self.law.pendulum(k), self._turn_of(k))
+
+    def _turn_of(self, k: Reals) -> Reals:
+        """Angles of the law from k*."""
+        sine, cosine = self.law.pendulum(k)
+        behind = np.maximum(self.turns[1] - np.arctan2(cosine, -sine), 0.0)
+        before = np.minimum(self.turns[0] + np.arctan2(cosine, sine), 0.0)
+        return np.where(k > self.place, behind, np.where(k < self.place, before, 0.0))
 
     def view_at(self, turn: Reals) -> MiddleView:
         """The same at angles of the law from k*, negative before it."""
@@ -542,8 +542,7 @@ class AimedLaw:
 
     def turn_at(self, share: float) -> float:
         """The angle of the law from k* at k - k*."""
-        (sine,), (cosine,) = self.law.pendulum(np.array([self.place + share]))
-        return self.turns[1] - math.atan2(cosine, -sine) if share > 0.0 else self.turns[0] + math.atan2(cosine, sine)
+        return float(self._turn_of(np.array([self.place + share]))[0])
 
     def _integrate(self, of: Callable[[Reals, Reals], Reals], turn: Reals, found: Reals) -> Reals:
         """Put integrals over the time from k* on where a turn is near: their digits are right down to there."""
