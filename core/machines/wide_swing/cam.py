@@ -12,10 +12,11 @@ differences.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -66,6 +67,11 @@ class StrokeLaw(Protocol):
     def turn_at(self, share: float) -> float: ...
 
 
+def roller_arm(ratio: float, versed: Any, sine: Any) -> Any:
+    """The roller centre from the cam axis, -1 + lambda e^{i psi}, of 1 - cos psi and sin psi, numbers or arrays."""
+    return -((1.0 - ratio) + ratio * versed) + 1j * ratio * sine
+
+
 @dataclass(frozen=True, eq=False)
 class CurveState:
     """Cam and roller at fractions of the stroke, in centre distances, rates by the input angle; and what follows.
@@ -102,15 +108,12 @@ class CurveState:
     @property
     def correction(self) -> Reals:
         """beta, polar angle of the roller centre against the centre line."""
-        ratio = self.ratio
-        return np.arctan2(ratio * self.sine, (1.0 - ratio) + ratio * self.s)
+        return np.asarray(np.angle(-np.conj(self.arm)))
 
     @property
     def arm(self) -> Points:
         """The roller centre from the cam axis, in the frame of the line of centres."""
-        ratio = self.ratio
-        arm: Points = -((1.0 - ratio) + ratio * self.s) + 1j * ratio * self.sine
-        return arm
+        return np.asarray(roller_arm(self.ratio, self.s, self.sine))
 
     @property
     def pitch(self) -> Points:
@@ -220,8 +223,7 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float, noise
     def clearance(t: Reals) -> Reals:
         return _room(step(t), roller_radius)
 
-    nearest = min(SHRINK * far, 0.01 * estimate)
-    t: Reals = np.float64(far) * np.power(SHRINK, np.arange(math.ceil(math.log(nearest / far, SHRINK)) + 1))
+    t = shrinking(far, 0.01 * estimate / far)
     room = clearance(t)
     if room[0] <= 0.0:
         most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
@@ -239,6 +241,11 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float, noise
     # of the places that rounding takes for roots the last one is found as before: a curvature beside it has no bound
     known = _KNOWN + noise / low
     return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known, ends=ends)
+
+
+def shrinking(far: Any, share: float) -> Reals:
+    """Places from the farthest on, number or column, each 0.7 of the one before, as far as a share of it."""
+    return np.asarray(far * np.power(SHRINK, np.arange(math.ceil(math.log(min(SHRINK, share), SHRINK)) + 1)))
 
 
 def fitting_roller(length: float, depth: float) -> float:
@@ -477,7 +484,11 @@ class StrokeCam:
 
     def pitch_radius(self, phi: float) -> float:
         """Pitch radius at a rocker angle from the line of centres [mm] (dissertation (20))."""
-        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(phi), self.ratio * math.sin(phi))
+        return self.center_distance * abs(self._arm_at(phi))
+
+    def _arm_at(self, phi: float) -> complex:
+        arm: complex = roller_arm(self.ratio, 2.0 * math.sin(0.5 * phi) ** 2, self.sense * math.sin(phi))
+        return arm
 
     @cached_property
     def middle_radius(self) -> float:
@@ -513,7 +524,7 @@ class StrokeCam:
             (_, before), (after, _) = self.contact
         except NoSolution:
             return 0.5
-        return self.middle - before if self.symmetric else max(self.middle - before, after - self.middle)
+        return max(self.sides(self.middle - before, after - self.middle))
 
     @property
     def slot(self) -> tuple[float, float]:
@@ -541,7 +552,7 @@ class StrokeCam:
 
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        places = [self.middle - zone] if self.symmetric else [self.middle - zone, self.middle + zone]
+        places = np.array(self.sides(self.middle - zone, self.middle + zone))
         lengths, depths = self.step(np.clip(places, 0.0, 1.0), self.middle)
         return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
 
@@ -724,19 +735,24 @@ class WideSwingCam(StrokeCam):
 
     def state_of(self, view: MiddleView, share: Reals) -> CurveState:
         """The same of a view of the law at k - k*."""
-        speed_ratio = self.speed_ratio
+        a, bend = self.rates(view, self.cycle_angle)
         return CurveState(
             k=self.middle + share,
             theta=share * self.cycle_angle,
             psi=self.sense * view.angle,
             turning=np.ones_like(share),
-            a=1.0 + self.sense * speed_ratio * view.velocity,
-            e=self._middle_gap + abs(self.ratio) * speed_ratio * view.deficit,
+            a=a,
+            e=self._middle_gap + abs(self.ratio) * self.speed_ratio * view.deficit,
             s=2.0 * np.sin(0.5 * view.angle) ** 2,
-            bend=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
+            bend=bend,
             sense=self.sense,
             ratio=self.ratio,
         )
+
+    def rates(self, view: MiddleView, angle: float) -> tuple[Reals, Reals]:
+        """A = 1 + psi' and psi'' of a stroke over a cam angle [rad]; negative where the law runs backwards."""
+        pace = self.sense * self.law.swing / angle
+        return 1.0 + pace * view.velocity, pace / angle * view.acceleration
 
     def step(self, k: Reals, _stop: float, /) -> tuple[Reals, Reals]:
         """Lengths of the pitch point's steps to k*, and their parts along the profile's normal [mm]."""
@@ -758,14 +774,10 @@ class WideSwingCam(StrokeCam):
         size = self.center_distance
         return size * np.abs(step), -size * self.sense * (step * np.conj(state.normal)).real
 
-    def correction(self, phi: float) -> float:
-        """xi, polar angle of the roller against the centre line at a rocker angle from there [rad] ((19), (25))."""
-        return math.atan2(abs(self.ratio) * math.sin(phi), 1.0 - self.ratio * math.cos(phi))
-
     @cached_property
     def profile_correction(self) -> float:
-        """xi at the end of the stroke [rad]."""
-        return self.correction(0.5 * self.law.swing)
+        """xi, polar angle of the roller against the centre line at the end of the stroke [rad] ((19), (25))."""
+        return cmath.phase(-self._arm_at(0.5 * self.law.swing).conjugate())
 
     @cached_property
     def largest_profile_correction(self) -> float:

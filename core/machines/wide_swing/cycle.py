@@ -145,9 +145,7 @@ class ClosedCam:
         driven = cam.state_of(view, share)
         if sector == 0:
             return driven
-        # the law backwards: velocity against, acceleration as in the law, over the other stroke's angle
-        a = 1.0 - cam.sense * (cam.law.swing / self.other) * view.velocity
-        bend = cam.sense * cam.law.swing / self.other**2 * view.acceleration
+        a, bend = cam.rates(view, -self.other)
         return replace(driven, theta=t - 0.5 * self.own, a=a, e=1.0 - cam.ratio * a, bend=bend)
 
     def _resting(self, t: Reals, end: float) -> CurveState:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable, Sequence
 from contextlib import suppress
 from functools import partial
@@ -13,7 +12,7 @@ import numpy as np
 from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.many_designs import hand_in, hand_on, hand_out, in_groups, sought, stacked
 from gearlink.core.base.results import keep
-from gearlink.core.machines.wide_swing.cam import SHRINK, SMALLEST, WideSwingCam
+from gearlink.core.machines.wide_swing.cam import SMALLEST, WideSwingCam, shrinking
 from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
 from gearlink.core.numerics.arrays import Reals
@@ -146,8 +145,7 @@ def _turns_from_end(cams: Sequence[WideSwingCam], side: float) -> Reals:
     """Angles of the laws from an end of the stroke to where a contact with k* ends at the latest; a row for each."""
     far = np.array([[abs(cam.law.turns[side > 0.0])] for cam in cams])
     near = [cam.law.turn_near(min(cam.transition_zone_estimate, 0.5)) for cam in cams]
-    nearest = float(np.min(near / far[:, 0]))
-    return np.asarray(far * np.power(SHRINK, np.arange(math.ceil(math.log(0.01 * nearest, SHRINK)) + 1)))
+    return shrinking(far, 0.01 * float(np.min(near / far[:, 0])))
 
 
 def _room_on_side(many: WideSwingCam, side: float, turn: Reals) -> Reals:
