@@ -296,23 +296,21 @@ def main() -> None:
         print(f"measuring {name} ...", file=sys.stderr)
         found[name] = measured(name, quick)
     here = machine()
+    wanted, peers = goals(here["AVX-512"] == "yes"), None
+    if PEERS.exists() and "four-bar" in found:
+        print("measuring the peers ...", file=sys.stderr)
+        done = subprocess.run([PEERS, ROOT / "bench" / "peers.py"], capture_output=True, text=True, check=True)
+        peers = peers_table(json.loads(done.stdout), found)
+        wanted += peer_goals(json.loads(done.stdout))
     if names:
-        page = renewed(
-            (DOCS / "benchmarks.md").read_text(encoding="utf-8"), found, goals(here["AVX-512"] == "yes"), here
-        )
+        page = renewed((DOCS / "benchmarks.md").read_text(encoding="utf-8"), found, wanted, here)
+        if peers is not None:
+            page = re.sub(r"^## Peers.*?(?=^## )", lambda _: f"{peers}\n\n", page, flags=re.MULTILINE | re.DOTALL)
         _write(page, json.loads((DOCS / "benchmarks.json").read_text(encoding="utf-8")), found)
         write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
         return
     pictures = write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
-    wanted = goals(here["AVX-512"] == "yes")
-    parts = [_REASONS]
-    if PEERS.exists():
-        print("measuring the peers ...", file=sys.stderr)
-        done = subprocess.run([PEERS, ROOT / "bench" / "peers.py"], capture_output=True, text=True, check=True)
-        peers = json.loads(done.stdout)
-        wanted += peer_goals(peers)
-        parts.append(peers_table(peers, found))
-    parts = [_HEAD, goals_table(found, wanted), *parts]
+    parts = [_HEAD, goals_table(found, wanted), _REASONS, *([] if peers is None else [peers])]
     parts.append("## Machine\n\n" + as_markdown(list(found.values()), here, pictures))
     _write("\n\n".join(part.strip() for part in parts) + "\n", {}, found)
 
