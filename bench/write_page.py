@@ -68,8 +68,8 @@ _REASONS = """## Where a goal is missed, and why
 * **Figures, reports, animations.** In `cam --plot` the imports of matplotlib and numpy take a third, drawing a fifth
   (half of it texts), making the panels an eighth and their layout a tenth. `gear --plot` draws six panels with symbols
   in mathematical type and the blocking contour, `swing --plot` eight panels; `press --plot` takes 1.39
-  to 1.44 from run to run. A report computes and draws its commands in as many processes as there are processors. An animation with real teeth takes some 10 ms a frame for polygons,
-  colours and encoding, in as many processes as there are processors.
+  to 1.44 from run to run. A report computes and draws its commands in as many processes as there are processors. An
+  animation with real teeth takes some 5 ms a frame for polygons, colours and encoding, in as many processes.
 * **All examples.** The folder contains searches, studies and loads of one or two seconds each (the function of a
   five-bar, a press with joint forces, a study of gripper cams). A folder of complete designs takes milliseconds each.
   A process of `check` takes the files of one kind together, since it builds the models of a kind once. Of `check` a
