@@ -31,6 +31,7 @@ _ASIDE = ("_at", ".travel", "power_identity", "massless", "seed", "samples")
 
 SHARED: dict[str, tuple[Key, ...]] = {
     "gear": (
+        "input_gear_teeth",
         ("center_distance", "center_distance"),
         "*.center_distance",
         "working_pressure_angle",

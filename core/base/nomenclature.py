@@ -80,6 +80,9 @@ GUIDANCE = {
 }
 PRESS_TEETH = {
     "pinion_radius": Term("r_8", "mm", "radius with which the pinion rolls on both racks", "TY-460 report 2.4"),
+    "input_gear_teeth": Term(
+        "z1", "1", "teeth of each input gear, given or as many as fit unshifted", "TY-460 report 1.1"
+    ),
     "rack_teeth": Term("", "1", "teeth of the lower and the upper rack, given or as many as the travel takes"),
     "rack_travel": Term("", "mm", "distance of the pinion along the lower and the upper rack"),
 }

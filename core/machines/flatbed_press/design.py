@@ -226,7 +226,11 @@ _ZONE = (left_out("sync.start"), up("cam.lead_in", step=1.0))
 _LATER = (*shared("cam.transition_end", "cam.return_angle", step=0.5)[:1], down("cam.return_angle", step=0.5))
 _GEARS = tuple(f"input_gears.profile_shift[{gear}]" for gear in (0, 1))
 _SHIFTS = (*shared(*_GEARS, step=0.01), *either(*_GEARS, step=0.01))
-_TEETH = (*either("input_gears.pressure_angle", step=0.5), down("input_gears.addendum", step=0.01))
+_TEETH = (
+    *either("input_gears.teeth", step=1),
+    *either("input_gears.pressure_angle", step=0.5),
+    down("input_gears.addendum", step=0.01),
+)
 _WIDER = (wider("input_gears.face_width"), wider("input_gears.face_width[0]", "input_gears.face_width[1]"))
 _TOOTH_CHECKS = (
     "undercut",
@@ -238,7 +242,7 @@ _TOOTH_CHECKS = (
 )
 _WAYS = {
     **dict.fromkeys(_TOOTH_CHECKS, (*_SHIFTS, *_TEETH)),
-    "contact-ratio": (*_SHIFTS, *_TEETH[:2], up("input_gears.addendum", step=0.01)),
+    "contact-ratio": (*_SHIFTS, *_TEETH[:4], up("input_gears.addendum", step=0.01)),
     "root-clearance": (up("input_gears.clearance", step=0.01), up("input_gears.tool.addendum", step=0.01)),
     "backlash": tuple(
         Way((f"input_gears.allowances.upper[{gear}]", f"input_gears.allowances.lower[{gear}]"), -0.005)
@@ -524,14 +528,14 @@ _SHOWN = ("profile_shift", "contact_ratio", "tip_thickness", "specific_sliding")
 
 
 def input_gears(design: FlatbedPress) -> Table:
-    """The modules of ISO 54 about the file's own, each with as many teeth as fit."""
+    """The modules of ISO 54 about the file's own, each with as many teeth as fit, the own with those of the file."""
     gears = design.spec.input_gears
     if gears is None:
         raise MissingSection("candidates are the input gears", key="input_gears", fix="give the section input_gears")
     near = sorted({*MODULES, gears.module}, key=lambda module: abs(module / gears.module - 1.0))[:7]
-    keys = {"input_gears.module": ("module", "mm")}
-    rows, teeth = [(module,) for module in sorted(near)], {"teeth": lambda trial: trial.gear_pair.teeth[0]}
-    return table(design, Sought("gear", keys, rows, _SHOWN, counted=teeth))
+    keys = {"input_gears.module": ("module", "mm"), "input_gears.teeth": ("", "1")}
+    rows = [(module, gears.teeth if module == gears.module else None) for module in sorted(near)]
+    return table(design, Sought("gear", keys, rows, _SHOWN, counted={"teeth": lambda trial: trial.input_gear_teeth}))
 
 
 # The motion of a flatbed press: input, both chains, and the zone in which they run together
@@ -1060,7 +1064,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),
         "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
         "gear": Outline(
-            (*GEAR_QUANTITIES, *DRAWING_QUANTITIES, *OF_CYLINDER, *OF_PINION, *OF_RACKS),
+            ("input_gear_teeth", *GEAR_QUANTITIES, *DRAWING_QUANTITIES, *OF_CYLINDER, *OF_PINION, *OF_RACKS),
             (*GEAR_CHECKS, *DRAWING_CHECKS, "rack-length"),
         ),
         "analyze": Outline((*_PRESS_QUANTITIES, *_EXTREMES), _PRESS_CHECKS, ("positions",)),
@@ -1161,12 +1165,22 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     @cached_property
     def gear_pair(self) -> GearPair:
-        """Gears 1 and 2 on the axes A and G, equal, with as many teeth as fit unshifted (TY-460 report 1.1)."""
+        """Gears 1 and 2 on the axes A and G, equal (TY-460 report 1.1)."""
+        from gearlink.core.parts.gears.from_spec import pair_at
+
+        teeth, gears = self.input_gear_teeth, self.spec.input_gears
+        assert gears is not None, "their teeth require it"
+        with in_section("input_gears"):
+            return pair_at(gears, (teeth, teeth), self.gear_distance)
+
+    @property
+    def input_gear_teeth(self) -> int:
+        """Teeth of gears 1 and 2, given or as many as fit unshifted."""
         gears = self.spec.input_gears
         if gears is None:
             raise MissingSection("`gear` needs the section input_gears: module, horizontal_distance", key="input_gears")
-        from gearlink.core.parts.gears.from_spec import pair_at
-
+        if gears.teeth is not None:
+            return gears.teeth
         distance = self.gear_distance
         # A centre distance of whole teeth is not to lose one of them to the rounding of the quotient.
         transverse = gears.module / math.cos(math.radians(gears.helix_angle))
@@ -1177,8 +1191,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
                 key="input_gears.module",
                 fix="reduce input_gears.module",
             )
-        with in_section("input_gears"):
-            return pair_at(gears, (teeth, teeth), distance)
+        return teeth
 
     @cached_property
     def gear_data(self) -> GearData:

@@ -38,6 +38,7 @@ class InputGears(PairKeys):
     """The 1:1 pair that brings the power in; its centre distance follows from the machine."""
 
     horizontal_distance: Length = Field(description="horizontal distance w of the two axes")
+    teeth: Teeth | None = Field(None, description="teeth of each of the two gears; default: as many as fit unshifted")
 
 
 class DoubleCrank(Spec):

@@ -36,6 +36,23 @@ def test_polygons_close_and_move_bed_and_cylinder() -> None:
     assert found.table("polygons", samples=36).length == 36
 
 
+@pytest.mark.parametrize("teeth", [70, 72, 73, 74])
+def test_given_teeth_shift_the_input_gears(teeth: int) -> None:
+    """The report's 1.1 for another number of teeth: the equations of the involute, written here once more."""
+    found = press(input_gears__teeth=teeth)
+    distance, alpha = math.hypot(290.0, 13.0), math.radians(20.0)
+    working = math.acos(4.0 * teeth * math.cos(alpha) / distance)
+    involute = math.tan(working) - working - math.tan(alpha) + alpha
+    assert found.input_gear_teeth == teeth
+    assert found.raw("shift_sum") == pytest.approx(teeth * involute / math.tan(alpha), rel=1e-10)
+    assert found.raw("working_radius") == pytest.approx((distance / 2.0, distance / 2.0), rel=1e-13)
+    assert press().input_gear_teeth == 72
+    rows = found.table("candidates")
+    own = dict(zip(rows["module"], rows["teeth"], strict=True))
+    assert own[4.0] == teeth
+    assert own[5.0] == math.floor(distance / 5.0)
+
+
 def test_gears_are_those_of_a_pair_and_of_a_pinion_on_a_rack() -> None:
     found = press()
     pair = design({"kind": "gear-pair", "module": 4.0, "teeth": [68, 68], "center_distance": 272.0}, command="gear")
