@@ -35,6 +35,7 @@ _WHAT = {
     "fo": "equation",
 }
 _WHAT |= {"se": "section", "sh": "sheet", "附图": "sheet"}
+_NUMERALS = str.maketrans("一二三四五六七八九", "123456789")
 
 
 class Concept(NamedTuple):
@@ -294,8 +295,10 @@ def named_places(name: str) -> Iterator[tuple[str, Place]]:
     Example
         >>> [(label, place.what, place.commands) for label, place in named_places("(4-26)")]
         [('4-26', 'equation', ('synth momentary-dwell',))]
+        >>> [(label, place.what) for label, place in named_places("附图四")]
+        [('4', 'sheet')]
     """
-    found = _PLACE.fullmatch(name.strip())
+    found = _PLACE.fullmatch(name.strip().translate(_NUMERALS))
     if found is None:
         return
     label = found["label"]
