@@ -257,13 +257,14 @@ def filling(family: Family, train: GearTrain, band: float) -> FourBar | None:
     return solved(family, measure, 2.0 * band, f"a tolerance of {_deg(band)} deg", 0.5)
 
 
-def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> FourBar:
+def with_speed_quotient(family: Family, train: GearTrain, quotient: float, maximum: float = 1.0) -> FourBar:
     """The linkage of a family whose minimum output speed is a given part of the greatest.
 
     W_min/W_max = quotient
 
     Parameters
         quotient : float - below 1; negative for an output that steps back
+        maximum : float [1/min] - W_max of the request, for the remedy
     Raises
         NoSolution - for a quotient that the family does not reach, naming its limits
     """
@@ -275,10 +276,14 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> Fo
 
     low, high = family.ends()
     most, least = reached(low), reached(high)
-    if not min(least, most) <= quotient <= max(least, most):
+    below, above = sorted((least, most))
+    if not below <= quotient <= above:
+        limits = f"from {safely_above(below, 4)} to {safely_below(above, 4)} with these gears"
+        slow = f"at least {safely_above(below * maximum, 4)}, or take a longer crank"
+        fast = f"at most {safely_below(above * maximum, 4)}, or take a shorter crank"
         raise NoSolution(
-            f"min/max of the output speed: {short(quotient)} (from {safely_above(min(least, most), 4)} to "
-            f"{safely_below(max(least, most), 4)} with these gears)"
+            f"min/max of the output speed: {short(quotient)} ({limits})",
+            fix=f"set speed.min to {slow if quotient < below else fast}",
         )
     ends = (most - quotient, least - quotient)
     return family.linkage(bracketed_root(lambda x: reached(x) - quotient, low, high, ends=ends))

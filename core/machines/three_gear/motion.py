@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeVar
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
@@ -342,7 +343,8 @@ def idler_for_ratio(i3: float, output_teeth: int) -> int:
     if teeth < 1:
         raise NoSolution(
             f"i3: {unlike(i3, -1.0 / output_teeth)} (limit <= {unlike(-1.0 / output_teeth, i3)}, an idler of one tooth "
-            f"with an output gear of {output_teeth})"
+            f"with an output gear of {output_teeth})",
+            fix=f"set i3 to at most {safely_below(-1.0 / output_teeth)}",
         )
     return teeth
 

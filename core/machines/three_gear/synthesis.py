@@ -16,9 +16,10 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, section_of
 from gearlink.core.base.real_speed import other_speed
 from gearlink.core.base.remedies.ways import at_most
-from gearlink.core.base.report import Check, Remedy, Table, safely_below
+from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear import momentary, symmetric
 from gearlink.core.machines.three_gear.codes import target_judged
 from gearlink.core.machines.three_gear.design import CHECKS, MESHES, QUANTITIES, ThreeGearFourBar, layout, tip_excess
@@ -445,10 +446,17 @@ class BackStepTask(FamilyTask):
         if task.crank_angle == 0.0:
             words = "the output does not step back over a crank angle of 0"
             raise NoSolution(words, key="back_step.crank_angle", fix="omit crank_angle, or give one above 0")
+        output, over = self.spec.gears.output, math.radians(task.crank_angle)
         with at_key("back_step.angle"):
-            i3 = symmetric.i3_for_back_step(math.radians(task.angle), math.radians(task.crank_angle))
-        with at_key("gears.idler"):
-            return idler_for_ratio(i3, self.spec.gears.output)
+            i3 = symmetric.i3_for_back_step(math.radians(task.angle), over)
+            if -i3 * output < 0.5:
+                least = math.degrees(symmetric.back_step_angle(-1.0 / output, over))
+                raise NoSolution(
+                    f"back-step within {short(task.crank_angle)} deg of the crank: {unlike(task.angle, least)} deg "
+                    f"(limit >= {unlike(least, task.angle)} deg, that of an idler of one tooth)",
+                    fix=f"set back_step.angle to at least {safely_above(least, 3)} deg, or lower its crank_angle",
+                )
+        return idler_for_ratio(i3, output)
 
     def crank_angle_for(self, i3: float) -> float:
         """phi12 as given, or from the back-step."""
@@ -521,7 +529,7 @@ class SpeedTask(FamilyTask):
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             if speed.max <= speed.min:
                 raise NoSolution(f"max ({speed.max:g}) must be greater than min ({speed.min:g})")
-            return with_speed_quotient(family, train, speed.min / speed.max)
+            return with_speed_quotient(family, train, speed.min / speed.max, speed.max)
 
     def frame_ratio_for(self, i3: float) -> float:
         """Thesis (4-20); for an even stretch the minimum frame that has it."""

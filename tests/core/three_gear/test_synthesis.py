@@ -265,7 +265,7 @@ def test_idler_from_back_step_and_crank_angle(share, crank_angle):
     if exact < 0.5:
         with pytest.raises(NoSolution) as refusal:
             _ = made.idler_teeth
-        assert refusal.value.key == "gears.idler"
+        assert refusal.value.key == "back_step.angle"
         return
     # nearest to -i3 z5: half a tooth and the rounding of the root
     assert abs(made.idler_teeth - exact) <= 0.5 + 1e-9 * exact
@@ -344,6 +344,38 @@ def test_dwell_beyond_every_idler():
     with pytest.raises(NoSolution, match=r"no idler from 17 to 400.*350 deg") as refusal:
         design("synth dwell", gears=EQUAL, dwell={"angle": 350.0}).report("synth dwell")
     assert refusal.value.key == "gears.idler"
+
+
+def test_back_step_below_that_of_an_idler_of_one_tooth():
+    # n = 1.025: 2 n atan(tan(45 deg)/n) - 90 deg = 0.7999 deg
+    made = design("synth back-step", gears=EQUAL, back_step={"angle": 0.001, "crank_angle": 90.0})
+    with pytest.raises(NoSolution, match="an idler of one tooth") as refusal:
+        made.report("synth back-step")
+    assert refusal.value.key == "back_step.angle"
+    least = float(re.search(r"angle to at least ([\d.]+) deg", refusal.value.fix)[1])
+    assert least == pytest.approx(2.05 * math.degrees(math.atan(1.0 / 1.025)) - 90.0, abs=1e-3)
+    assert (
+        value(design("synth back-step", gears=EQUAL, back_step={"angle": least, "crank_angle": 90.0}), "idler_teeth")
+        == 1
+    )
+
+
+@pytest.mark.parametrize(("crank", "least", "way"), [(9.0, 50.0, "most"), (20.0, -60.0, "least")])
+def test_speeds_beyond_a_given_crank(crank, least, way):
+    """The speed that the refusal names can be had, the one beside it cannot."""
+    gears = {"module": 2.0, "crank": 19, "idler": 26, "output": 22}
+
+    def made(slowest):
+        return design("synth variable-speed", gears=gears, speed={"min": slowest, "max": 70.0, "crank": crank})
+
+    with pytest.raises(NoSolution, match="min/max of the output speed") as refusal:
+        made(least).report("synth variable-speed")
+    named = float(re.search(rf"speed.min to at {way} ([-\d.]+), or take a", refusal.value.fix)[1])
+    assert value(made(named), "speed_ratio_min") / value(made(named), "speed_ratio_max") == pytest.approx(
+        named / 70.0, rel=1e-11
+    )
+    with pytest.raises(NoSolution, match="min/max"):
+        made(named + math.copysign(0.1, least - named)).report("synth variable-speed")
 
 
 @pytest.mark.parametrize("angle", [90.0001, 180.0, 359.0])
