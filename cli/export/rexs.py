@@ -144,7 +144,7 @@ def _stage(pair: GearPair, widths: tuple[float, float] | None) -> Iterator[tuple
     yield "center_distance", "mm", abs(pair.center_distance)
     yield "gear_ratio", "none", max(z_1, z_2) / min(z_1, z_2)
     yield "flag_designation_addendum_modification", "none", "entry_of_addendum_modification_coefficient"
-    yield "sum_of_addendum_modification_coefficients", "none", pair.shift_sum
+    yield "sum_of_addendum_modification_coefficients", "none", sum(pair.profile_shift)
     if pair.contact_ratio > 0.0:
         yield "radial_contact_ratio", "none", pair.contact_ratio
     if widths:

@@ -343,7 +343,12 @@ GEAR_PAIR = {
         "ISO 21771",
     ),
     "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
-    "shift_sum": Term("x1+x2", "1", "sum of the profile shift coefficients", "ISO 21771"),
+    "shift_sum": Term(
+        "x1+x2",
+        "1",
+        "sum of the profile shift coefficients; of given ones at a given distance the sum without backlash",
+        "ISO 21771",
+    ),
     "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),
     "tip_shortening": Term("dy", "1", "tip shortening coefficient, shift sum - y", "ISO 21771"),
     "contact_ratio": Term("eps_alpha", "1", "transverse contact ratio (nominal)", "ISO 21771"),

@@ -1112,6 +1112,22 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             yield Found("size", None)
         yield from self.solved_laws()
 
+    def as_found(self) -> Iterator[Found]:
+        """Teeth, shifts and tips that the nominal distance asks for: gears are cut once, wherever their axes lie."""
+        yield from self.completion()
+        gears, by = self.spec.input_gears, "found for input_gears.horizontal_distance"
+        if gears is None:
+            return
+        try:
+            pair = self.gear_pair
+        except NoSolution:  # of the command gear, which says so
+            return
+        yield Found("input_gears.teeth", pair.teeth[0], by)
+        if gears.profile_shift is None:
+            yield Found("input_gears.profile_shift", list(pair.profile_shift), by)
+        if gears.tip_shortening in (None, "full"):
+            yield Found("input_gears.tip_shortening", list(pair.tip_alteration), by)
+
     @property
     def law_definitions(self) -> Mapping[str, Any]:
         """The law of the follower's return."""

@@ -53,6 +53,31 @@ def test_given_teeth_shift_the_input_gears(teeth: int) -> None:
     assert own[5.0] == math.floor(distance / 5.0)
 
 
+def test_input_gears_are_cut_once() -> None:
+    """Samples of the axes' distance have the teeth, shifts and tips of the nominal gears, as those of a gear-pair.
+
+    Its source is the centre distance a_w = sqrt(w^2 + 13^2), at da_w = w/a_w dw; bends of second order count 1e-6.
+    """
+    across, play = math.sqrt(288.0**2 - 13.0**2) + 1e-6, 0.05
+    sources = {"input_gears.horizontal_distance": {"plus_minus": play}}
+    section: dict[str, Any] = {"command": "gear", "samples": 64, "sources": sources}
+    gears = {"module": 4.0, "horizontal_distance": across}
+    found = press(input_gears=gears, tolerance=section)
+    assert found.input_gear_teeth == 72  # and 71 in every other sample, if it were cut to the sample's distance
+    distance = math.hypot(across, 13.0)
+    pair = {"kind": "gear-pair", "module": 4.0, "teeth": [72, 72], "center_distance": distance}
+    alone = {**section, "sources": {"center_distance": {"plus_minus": play * across / distance}}}
+    both = [
+        {name: (mean, sigma) for name, mean, sigma in zip(t["quantity"], t["mean"], t["sigma"], strict=True)}
+        for t in (
+            design("ty460_gears", command="tolerance", input_gears=gears, tolerance=section).table("quantities"),
+            design({**pair, "tolerance": alone}, command="tolerance").table("quantities"),
+        )
+    ]
+    for name in ("working_pressure_angle", "contact_ratio", "center_distance"):
+        assert both[0][name] == pytest.approx(both[1][name], rel=1e-3)
+
+
 def test_gears_are_those_of_a_pair_and_of_a_pinion_on_a_rack() -> None:
     found = press()
     pair = design({"kind": "gear-pair", "module": 4.0, "teeth": [68, 68], "center_distance": 272.0}, command="gear")
