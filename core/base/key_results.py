@@ -8,7 +8,7 @@ the keys of the file which it answers:
 The first key that the file has counts. It is `required`; behind `>` the value has to be at least, behind `<` at most
 that of the key, behind `?` the key only asks for it. A key that begins with a point is an attribute of the design, in
 the quantity's unit. A name behind `?` is shown only where the file asks for it. A name with `*` is every quantity like
-it, behind `^` the largest of them alone.
+it, behind `^` the largest of them alone, whatever its sign: `^speed_ratio_m*[xn]` is the faster of both extremes.
 """
 
 from __future__ import annotations
@@ -99,6 +99,8 @@ TITLES = {
 
 
 _REGISTER = "register, "
+_AS_LARGE = 1.0 - 1e-9
+"""Of maximum and minimum that differ by rounding the first is shown."""
 
 
 class KeyResult(NamedTuple):
@@ -152,7 +154,10 @@ def _matching(name: str, shown: dict[str, Quantity]) -> Iterable[Quantity]:
     if "*" not in name:
         return (shown[name],) if name in shown else ()
     like = [q for each, q in shown.items() if fnmatchcase(each, name.removeprefix("^"))]
-    return (max(like, key=lambda q: abs(_size(q))),) if name.startswith("^") and like else like
+    if not (name.startswith("^") and like):
+        return like
+    bound = _AS_LARGE * max(abs(_size(q)) for q in like)
+    return (next(q for q in like if abs(_size(q)) >= bound),)
 
 
 def _size(quantity: Quantity) -> float:

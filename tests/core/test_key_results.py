@@ -123,3 +123,15 @@ def test_the_two_values_of_a_register_are_named() -> None:
     """One for each sense of the torque: without that two equal numbers stand side by side."""
     for value, title in (([0.1, 0.2], "worst case, torque + and -"), (0.2, "register, worst case")):
         assert KeyResult(Quantity("worst", value, "mm", "", "")).title == title
+
+
+def test_the_faster_extreme_is_shown_whatever_its_sign() -> None:
+    """A ring gear runs backwards: its speed is the minimum; maximum and minimum of one size show the maximum."""
+    ring = design("ring_feed", command="synth dwell")
+    shown = {each.quantity.name: each.quantity.value for each in ring.report("synth dwell").key}
+    assert "speed_ratio_max" not in shown
+    assert abs(shown["speed_ratio_min"]) > abs(ring.quantity("speed_ratio_max").value)
+    even = design("thesis_example_1", command="synth back-step")
+    names = [each.quantity.name for each in even.report("synth back-step").key]
+    assert "acceleration_ratio_max" in names
+    assert "acceleration_ratio_min" not in names

@@ -185,9 +185,9 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
             "extreme_crank_angles",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "output_speed_max",
-            "output_acceleration_max",
-            "speed_ratio_max",
-            "acceleration_ratio_max",
+            "^output_acceleration_m*[xn]",
+            "^speed_ratio_m*[xn]",
+            "^acceleration_ratio_m*[xn]",
             "contact_ratio",
         ),
     }

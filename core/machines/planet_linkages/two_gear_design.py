@@ -97,11 +97,11 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
             "mean_ratio",
             "speed_ratio_max",
             "speed_ratio_min",
-            "output_acceleration_max",
+            "^output_acceleration_m*[xn]",
             "feed_per_turn",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "linkage_kind",
-            "acceleration_ratio_max",
+            "^acceleration_ratio_m*[xn]",
         ),
     }
     outlines = {

@@ -166,11 +166,11 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
             "mean_ratio",
             "speed_ratio_max",
             "speed_ratio_min",
-            "output_acceleration_max",
+            "^output_acceleration_m*[xn]",
             "feed_per_turn",
             ("min_transmission_angle", ">limits.transmission_angle"),
             ("gear_gap", ">limits.gear_gap"),
-            "acceleration_ratio_max",
+            "^acceleration_ratio_m*[xn]",
             "dwell_angle",
         ),
     }
