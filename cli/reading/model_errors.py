@@ -286,6 +286,10 @@ def _mismatch(finding: _Finding) -> bool:
     return finding.kind in WANTED or finding.kind in ("literal_error", "enum")
 
 
+_OF_A_RING = ("ring", "mesh")
+"""Keys by which sections name an internal gear whose teeth are not negative."""
+
+
 def _spelled(key: str) -> str:
     return re.sub(r"[\s-]+", "_", key[:100].strip().lower())
 
@@ -546,7 +550,18 @@ class _Wording:
     def _out_of_range(self, finding: _Finding, limit: str) -> Diagnostic:
         message = f"{format_path(finding.path)} must be {limit}, not {shown(finding.value)}"
         whole = allowed_range(self.model, finding.path, self.loaded.data)
-        return self._say("GL108", finding, message, f"allowed: {whole}" if whole else "")
+        help = self._of_a_ring(finding) or (f"allowed: {whole}" if whole else "")
+        return self._say("GL108", finding, message, help)
+
+    def _of_a_ring(self, finding: _Finding) -> str:
+        """The keys of an internal gear, where negative teeth mean one that the section writes otherwise."""
+        *parent, last = finding.path
+        negative = isinstance(finding.value, int) and finding.value < 0
+        if not negative or unit_at(self.model, finding.path, self.loaded.data) != "teeth":
+            return ""
+        known = fields_at(self.model, tuple(parent), self.loaded.data)
+        keys = [f"`{key}` ({known[key].description})" for key in _OF_A_RING if key in known and key != last]
+        return f"an internal gear is written by {' or '.join(keys)}" if keys else ""
 
     def _other(self, finding: _Finding) -> Diagnostic:
         """What a validator says in its own words: of a section it is a contradiction, of a value a wrong value."""

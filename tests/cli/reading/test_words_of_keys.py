@@ -135,3 +135,19 @@ def test_a_word_of_the_card_leads_on_in_every_kind(kind: str) -> None:
 def test_a_key_of_another_form_of_its_section_is_not_recommended_again() -> None:
     assert meaning_in("offset", "disc-cam", ("follower",)) is None
     assert meaning_in("offset", "disc-cam", ("cam",)) is not None
+
+
+@pytest.mark.parametrize(
+    ("kind", "key", "help"),
+    [
+        ("two-gear-four-bar", "planet", "an internal gear is written by `ring` (teeth z5 of an internal output gear"),
+        ("geared-five-bar", "input", "an internal gear is written by `ring` (function: "),
+        ("hypocycloid-dwell", "ring", "allowed: from 1"),
+        ("geared-rocker", "output", "allowed: from 1"),
+    ],
+)
+def test_negative_teeth_lead_to_the_key_of_a_ring(kind: str, key: str, help: str) -> None:
+    data = copy.deepcopy(WORKED[kind])
+    data["gears"][key] = -40
+    (found,) = [each for each in told(data) if each.key == f"gears.{key}"]
+    assert found.help.startswith(help)
