@@ -177,7 +177,8 @@ class DrivenSpec(Scatter, DesignSpec):
     """The keys of a kind whose input turns at an even speed."""
 
     input_speed: Speed | None = Field(
-        None, description="speed of the input: with it real speeds, accelerations and times are given"
+        None,
+        description="speed of the input, counter-clockwise: with it real speeds, accelerations and times are given",
     )
 
     own_commands: ClassVar[tuple[str, ...]] = ("analyze", "gear")
