@@ -685,6 +685,7 @@ _SWING = {
     "iteration_passes": Term("", "1", "passes of the source's own iteration"),
     "iteration_error": Term("N_it/N - 1", "1", "relative error of the energy parameter by the source's own iteration"),
     "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
+    "return_transition_zone": Term("dk2", "1", "half-width of the contact change of the return cam", "own derivation"),
     "zero_end_swing": Term("", "deg", "swing without pressure angle at its ends, 2 acos(r/a)", "dissertation ch. 3"),
     "largest_profile_correction": Term("xi_max", "deg", "largest angular correction of the stroke", "own derivation"),
     "start_radius_estimate": Term("R0*", "mm", "the source's estimate of R0", "dissertation (23)"),

@@ -459,6 +459,11 @@ ITERATION = {
 MOTION = {name: f"extremes.{name}" for name in extreme_names("rocker_speed", "rocker_acceleration")}
 PLACES = {"max_pressure_angle_at": "pressure_place", "min_curvature_radius_at": "curvature_place"}
 CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
+RETURN_CURVATURE = {"return_min_curvature_radius": "other_cam.min_curvature_radius"}
+RETURN_ZONE = {"return_transition_zone": "other_cam.transition_zone"}
+RETURN = {f"return_{name}": f"other_cam.{name}" for name in ("max_radius", "min_radius")}
+RETURN |= RETURN_ZONE | {"return_max_pressure_angle": "other_cam.max_pressure_angle"}
+"""Quantities of a return cam of another shape."""
 PATHS = (
     QUANTITIES
     | IMPACT
@@ -474,6 +479,8 @@ PATHS = (
     | PROFILE
     | OF_SLIDER_CAM
     | CURVATURE
+    | RETURN
+    | RETURN_CURVATURE
     | CYCLE
     | {name: f"phases.{name}" for name in PHASES}
     | ITERATION
@@ -558,7 +565,10 @@ _CAM_CHECKS = (
 
 
 _DEVICE_KEYS = ("force", "spring_rate", "slider_stroke")
-_STEEPEST_KEY = ("max_pressure_angle", "<limits.pressure_angle")
+_STEEPEST_KEYS = (
+    ("max_pressure_angle", "<limits.pressure_angle"),
+    ("return_max_pressure_angle", "<limits.pressure_angle"),
+)
 _CAM_KEYS = (
     ("lift_off_speed", ">speed"),
     "contact_force",
@@ -566,6 +576,7 @@ _CAM_KEYS = (
     "max_radius",
     "rocker_radius",
     ("transition_zone", "<limits.transition_zone"),
+    ("return_transition_zone", "<limits.transition_zone"),
     "energy_parameter",
 )
 
@@ -576,9 +587,9 @@ class WideSwingDesign(Design):
     kind = "wide-swing-cam"
     spec: WideSwingSpec
     keys = {
-        "swing": (*_DEVICE_KEYS, ("min_pivot_ratio", "<unloader.pivot_ratio"), _STEEPEST_KEY, *_CAM_KEYS),
-        "analyze": (*_DEVICE_KEYS, "rocker_speed_max", "rocker_acceleration_max", _STEEPEST_KEY, *_CAM_KEYS),
-        "cam": (_STEEPEST_KEY, *_CAM[1:]),
+        "swing": (*_DEVICE_KEYS, ("min_pivot_ratio", "<unloader.pivot_ratio"), *_STEEPEST_KEYS, *_CAM_KEYS),
+        "analyze": (*_DEVICE_KEYS, "rocker_speed_max", "rocker_acceleration_max", *_STEEPEST_KEYS, *_CAM_KEYS),
+        "cam": (*_STEEPEST_KEYS, *_CAM[1:]),
     }
     outlines = {
         "swing": Outline(tuple(LAW), _LAW_CHECKS, ("law", "balance")),
@@ -659,6 +670,14 @@ class WideSwingDesign(Design):
                 return WideSwingCam(layout, law, angle, *lengths)
         with at_key("cycle"):
             return WideSwingCam(layout, law, angle, *lengths, angle_words=f"cycle.{phase}")
+
+    @property
+    def other_cam(self) -> WideSwingCam:
+        """The same, where the file gives one."""
+        if self.return_cam is None:
+            words = "the return cam is the mirror image of the other: its own results are those of that cam"
+            raise NoSolution(words, key="layout", fix="use the name without return_")
+        return self.return_cam
 
     @cached_property
     def cycle(self) -> WholeCycle:
@@ -1381,6 +1400,10 @@ class WideSwingDesign(Design):
             shown += SHAFTS
             if self.spec.gears is not None:
                 shown += OF_GEARS
+        other = None if self.spec.drive is not None else self.return_cam
+        if other is not None:
+            of_other = [*RETURN, *(RETURN_CURVATURE if command == "analyze" else ())]
+            shown += of_other if self.has_zone(other) else [*RETURN_ZONE]
         if section.roller_clearance is not None:
             shown += [name for name in IMPACT if name != "impact_force" or section.contact_stiffness is not None]
         if self.spec.output_radius is not None:

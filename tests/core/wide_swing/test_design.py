@@ -745,3 +745,25 @@ def test_spring_of_no_length_is_warned_of_where_no_steel_fits(ratio: float, stre
     assert statuses(made, "unloader-turnability") == ([] if fits else ["warn"])
     capacity = made.spec.model_dump(exclude_none=True)["unloader"] | {"stretch_capacity": 2.0}
     assert statuses(design(unloader=capacity, swing=swing), "unloader-turnability") == ["pass" if fits else "fail"]
+
+
+def test_return_cam_of_another_shape_has_its_own_quantities() -> None:
+    """Against the dense table of its points: the table's samples lie below the maximum by the square of their step."""
+    made = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING)
+    columns = made.table_return_cam(4000)
+    touching = np.isfinite(columns["x"])
+    pressure = np.abs(columns["pressure_angle"][touching]).max()
+    assert value(made, "return_max_pressure_angle") == pytest.approx(pressure, rel=1e-5)
+    reach = np.hypot(columns["pitch_x"], columns["pitch_y"])
+    assert value(made, "return_max_radius") == pytest.approx(reach.max(), rel=1e-9)
+    zone = 0.5 - columns["k"][touching & (columns["k"] < 0.5)].max()
+    assert value(made, "return_transition_zone") == pytest.approx(zone, abs=1.0 / 4000)
+    assert value(made, "return_transition_zone") <= zone
+    judged = [check.value for check in made.check("pressure-angle")]
+    assert value(made, "return_max_pressure_angle") == pytest.approx(judged[1], rel=1e-12)
+
+
+def test_mirror_image_has_no_quantities_of_its_own() -> None:
+    assert "return_max_pressure_angle" not in design().outline("swing").quantities
+    with pytest.raises(NoSolution, match="mirror image"):
+        design().quantity("return_max_pressure_angle")
