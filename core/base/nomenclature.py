@@ -150,6 +150,7 @@ MOTION_EXTREMES = {
     "point_speed_max": Term("", "mm/s", "maximum speed of the coupler point at this input speed"),
     "point_speed_min": Term("", "mm/s", "minimum speed of the coupler point at this input speed"),
     "point_acceleration_max": Term("", "mm/s^2", "maximum acceleration of the coupler point at this input speed"),
+    "bed_stroke": Term("", "mm", "stroke of the bed, twice the slider's"),
     "bed_velocity_max": Term("", "mm/s", "maximum velocity of the bed, less that of the lift of its cam"),
     "bed_velocity_max_at": Term("", "deg", "angle of the maximum velocity of the bed"),
     "bed_velocity_min": Term("", "mm/s", "minimum velocity of the bed, less that of the lift of its cam"),

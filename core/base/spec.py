@@ -209,6 +209,15 @@ class DrawingLimits(Spec):
     safety_scuffing: Ratio = Field(1.8, description="minimum safety against scuffing, with rating")
 
 
+def require_stroke_or_crank(stroke: float | None, crank: float | None) -> None:
+    """Refuse a slider-crank without a size, and one with two."""
+    if stroke is not None and crank is not None:
+        message = "stroke and crank exclude each other\nomit stroke or crank"
+        raise PydanticCustomError("GL111", message, {"key": "crank"})
+    if stroke is None and crank is None:
+        raise PydanticCustomError("GL106", "give stroke, or crank instead", {"key": "stroke"})
+
+
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
     """Refuse a slide line that the connecting rod cannot reach."""
     if abs(offset) >= rod:

@@ -133,12 +133,12 @@ class Machine:
     @property
     def pinion(self) -> float:
         """Radius of the pinion on F [mm]."""
-        return 0.12 * self.design.spec.bed.stroke
+        return 0.12 * self.design.motion.bed_stroke
 
     @property
     def bed_top(self) -> float:
         """Height of the bed's top [mm]."""
-        return self.slide + self.pinion + 0.06 * self.design.spec.bed.stroke
+        return self.slide + self.pinion + 0.06 * self.design.motion.bed_stroke
 
     @cached_property
     def cam_axis(self) -> complex:
@@ -216,7 +216,7 @@ def cylinder_chain(joints: tuple[Points, ...]) -> Scene:
 
 def _bed(machine: Machine, travel: Course) -> list[Part]:
     """Pinion on F between the rack that the cams move and the rack of the bed."""
-    stroke, fraction = machine.design.spec.bed.stroke, machine.fraction
+    stroke, fraction = machine.design.motion.bed_stroke, machine.fraction
     f, pinion = machine.bed_joints[5], machine.pinion
     middle = 0.5 * (float(f.real.min()) + float(f.real.max()))
     thick = 0.06 * stroke

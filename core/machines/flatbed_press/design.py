@@ -272,7 +272,8 @@ def _rod(design: FlatbedPress) -> Iterator[Remedy]:
         if math.degrees(design.motion.min_rod_angle) >= aim or lean < _STEEPEST:
             continue
         for _ in range(_ROUNDS):
-            rod = (SliderCrank(bed.stroke / 2.0, rod, bed.offset).crank_length + abs(bed.offset)) / lean
+            crank = bed.crank or SliderCrank(design.motion.bed_stroke / 2.0, rod, bed.offset).crank_length
+            rod = (crank + abs(bed.offset)) / lean
         yield (("bed.rod", at_least(rod)),)
 
 
@@ -437,7 +438,7 @@ class PressTeeth:
         """How far the pinion goes along the lower and the upper rack [mm]: stroke of F, and the follower's with it."""
         if self.design.spec.bed.pinion is None:
             return None
-        stroke = 0.5 * self.design.spec.bed.stroke
+        stroke = self.design.motion.slider_crank.stroke
         lift = 0.0 if self.design.spec.cam is None else float(self.design.cams.follower_stroke)
         return [stroke + lift, stroke]
 
@@ -562,8 +563,21 @@ class PressMotion:
     def slider_crank(self) -> SliderCrank:
         """D-E-F, whose slider makes half the bed's stroke."""
         bed = self.spec.bed
-        with at_key("bed.stroke"):
+        with at_key(self.bed_size):
+            if bed.crank is not None:
+                return SliderCrank.of_crank(bed.crank, bed.rod, bed.offset)
+            assert bed.stroke is not None
             return SliderCrank(bed.stroke / 2.0, bed.rod, bed.offset)
+
+    @property
+    def bed_size(self) -> str:
+        """The key that gives the size of the slider-crank."""
+        return "bed.stroke" if self.spec.bed.crank is None else "bed.crank"
+
+    @property
+    def bed_stroke(self) -> float:
+        """Stroke of the bed, twice the slider's [mm]."""
+        return 2.0 * self.slider_crank.stroke if self.spec.bed.stroke is None else self.spec.bed.stroke
 
     @cached_property
     def bed(self) -> BedChain:
@@ -620,7 +634,7 @@ class PressMotion:
         given = self.spec.sync.start
         if given is not None:
             return math.radians(given)
-        return equal_speed_angle(self.bed, self.cylinder, advise=self.advise)
+        return equal_speed_angle(self.bed, self.cylinder, advise=self.advise, size=self.bed_size)
 
     @cached_property
     def sync_end(self) -> float:
@@ -997,7 +1011,7 @@ _CAM_CHECKS = (
     *LAW_CHECKS,
 )
 _CAM_TABLES = ("follower", "main_cam", "return_cam")
-_PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
+_PRESS_QUANTITIES = ("crank_length", "bed_stroke", "initial_crank_angle", *_SYNC, *_CHAINS)
 
 
 _BED_EXTREMES = names("bed_velocity", "bed_acceleration")
@@ -1023,6 +1037,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             ("sync_end", "sync.end"),
             "compensation",
             "crank_length",
+            "bed_stroke",
             "initial_crank_angle",
             ("min_transmission_angle_bed", ">limits.transmission_angle"),
             ("min_transmission_angle_cylinder", ">limits.transmission_angle"),
@@ -1055,6 +1070,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         ),
         "crank": (
             "crank_length",
+            "bed_stroke",
             "quick_return_ratio",
             "max_stroke",
         ),
@@ -1062,7 +1078,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     outlines = {
         "press": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
         "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),
-        "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
+        "crank": Outline(("crank_length", "bed_stroke", *SLIDER_QUANTITIES)),
         "gear": Outline(
             ("input_gear_teeth", *GEAR_QUANTITIES, *DRAWING_QUANTITIES, *OF_CYLINDER, *OF_PINION, *OF_RACKS),
             (*GEAR_CHECKS, *DRAWING_CHECKS, "rack-length"),
@@ -1236,6 +1252,11 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     return_cam: DiscCam = placed("cams.return_cam")
 
     # Quantities
+
+    @property
+    def bed_stroke(self) -> float | None:
+        """Stroke that a given crank makes [mm]; None where the file gives it."""
+        return None if self.spec.bed.crank is None else self.motion.bed_stroke
 
     initial_crank_angle: float = placed("motion.bed.initial_crank_angle")
     min_transmission_angle_bed: float = placed("motion.min_transmission_angle_bed")

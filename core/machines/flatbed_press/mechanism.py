@@ -83,7 +83,7 @@ def pinion_radius(design: FlatbedPress) -> float:
     if design.spec.bed.pinion is not None:
         return design.teeth.pinion.pair.reference_radius[0]
     given = _section(design).pinion_radius
-    return design.spec.bed.stroke * _PINION if given is None else given
+    return design.motion.bed_stroke * _PINION if given is None else given
 
 
 def _section(design: FlatbedPress) -> Section:

@@ -72,10 +72,11 @@ class PressRegister(RegisterDesign):
     def errors(self) -> Errors:
         """By size; the bed's slide line keeps its place, so a longer frame puts A back."""
         bed, degree = self.design.bed, math.radians(1.0)
-        per_stroke = 0.5 * self.design.motion.slider_crank.crank_per_stroke  # the bed goes twice as far
-        crank = per_stroke * cmath.exp(-1j * bed.crank_offset_angle)
+        key, crank = "bed.crank", cmath.exp(-1j * bed.crank_offset_angle)
+        if self.design.spec.bed.crank is None:
+            key, crank = "bed.stroke", 0.5 * self.design.motion.slider_crank.crank_per_stroke * crank
         found = {
-            "bed.stroke": (Shift("CDE", ("E",), crank),),
+            key: (Shift("CDE", ("E",), crank),),
             "bed.rod": (Shift("EF", ("F",)),),
             "bed.offset": (Shift("frame", ("guide_carriage",), -1.0),),
             "bed.crank_offset_angle": (Shift("CDE", ("E",), -degree, turned=True),),

@@ -26,6 +26,7 @@ from gearlink.core.base.spec import (
     TolerancedSpec,
     also,
     require_offset_below_rod,
+    require_stroke_or_crank,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
 from gearlink.core.parts.gears.keys.pair import PairKeys
@@ -92,7 +93,8 @@ class Pinion(PairKeys):
 class Bed(Spec):
     """The bed drive: drag link, slider-crank, pinion between two racks."""
 
-    stroke: Length = Field(description="stroke of the bed, twice the slider's")
+    stroke: Length | None = Field(None, description="stroke of the bed, twice the slider's")
+    crank: Length | None = Field(None, description="crank DE of the slider, instead of stroke")
     double_crank: DoubleCrank
     crank_offset_angle: Angle = Field(description="angle CDE between the driven crank and the slider's crank")
     rod: Length = Field(description="connecting rod EF")
@@ -101,6 +103,11 @@ class Bed(Spec):
     rack_teeth: (
         Annotated[list[Teeth], Field(min_length=2, max_length=2), Entries("[lower, upper]", "[28, 28]")] | None
     ) = Field(None, description="teeth of the lower and of the upper rack; default: as many as the travel takes")
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Bed:
+        require_stroke_or_crank(self.stroke, self.crank)
+        return self
 
     @model_validator(mode="after")
     def _reachable(self) -> Bed:

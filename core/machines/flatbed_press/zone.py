@@ -11,7 +11,7 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import unlike
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
-from gearlink.core.parts.linkages.slider_crank import dead_center_extended, dead_center_folded
+from gearlink.core.parts.linkages.slider_crank import SliderCrank, dead_center_extended, dead_center_folded
 
 _TURN = 2.0 * math.pi
 _STEP = math.radians(3.0)
@@ -34,11 +34,17 @@ def turning_within(bed: BedChain, start: float, end: float) -> float | None:
     return min((place for place in places if start < place < end), default=None)
 
 
-def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = True) -> float:
+def equal_speed_angle(
+    bed: BedChain, cylinder: CylinderChain, *, advise: bool = True, size: str = "bed.stroke"
+) -> float:
     """First input angle after the start at which bed and cylinder have the same speed [rad].
 
     p'(phi) = q'(phi),  0 < phi < the bed's turning point
 
+    Parameters
+        bed, cylinder : BedChain, CylinderChain
+        advise : bool - whether a refusal names a repair
+        size : str - key by which the file gives the size of the bed drive, bed.stroke or bed.crank
     Raises
         NoSolution - when the speeds never meet on the forward stroke; where advice is asked for, the message says which
             change of the cylinder's initial crank angle makes them meet
@@ -55,7 +61,7 @@ def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = 
         if shift or not advise:
             text = "bed and cylinder never have the same speed on the forward stroke: no synchronous zone"
             raise NoSolution(text, key="cylinder.initial_crank_angle", fix=shift)
-        raise _sizes_that_help(bed, cylinder, end)
+        raise _sizes_that_help(bed, cylinder, end, size)
     return root
 
 
@@ -153,23 +159,24 @@ def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str
     return ""
 
 
-def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> NoSolution:
-    """The refusal, with the maximum radius of the cylinder and the minimum stroke of the bed for which they meet."""
+def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float, size: str) -> NoSolution:
+    """The refusal, with the maximum radius of the cylinder and the minimum size of the bed for which they meet."""
     fastest = _greatest(bed.speed, end)
     least = -_greatest(lambda phi: -cylinder.speed(phi), _TURN)
     text = (
         f"the bed (max. {safely_above(fastest)} mm/rad) never reaches the cylinder speed (min. {safely_below(least)} "
         "mm/rad): no synchronous zone"
     )
-    stroke = _least_stroke(bed, cylinder)
-    if stroke is None:
+    crank = _least_crank(bed, cylinder)
+    if crank is None:
         radius = safely_below(cylinder.radius * _share(bed, cylinder))
         return NoSolution(text, key="cylinder.radius", fix=f"set cylinder.radius to at most {radius} mm")
-    return NoSolution(text, key="bed.stroke", fix=f"set bed.stroke to at least {safely_above(stroke)} mm")
+    least = crank if size == "bed.crank" else 2.0 * SliderCrank.of_crank(crank, bed.rod, bed.offset).stroke
+    return NoSolution(text, key=size, fix=f"set {size} to at least {safely_above(least)} mm")
 
 
-def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:
-    """Minimum stroke of the bed with which it is as fast as the cylinder [mm]; None where the rod allows none."""
+def _least_crank(bed: BedChain, cylinder: CylinderChain) -> float | None:
+    """Minimum crank DE with which the bed is as fast as the cylinder [mm]; None where the rod allows none."""
 
     def lacks(crank: float) -> float:
         return _share(replace(bed, slider_crank_length=crank), cylinder) - 1.0
@@ -177,9 +184,7 @@ def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:
     low, most = bed.slider_crank_length, (bed.rod - abs(bed.offset)) * _SHORT
     if not (low < most and lacks(most) > 0.0):
         return None
-    crank = bracketed_root(lacks, low, most, tolerance=1e-9 * most)
-    far, near = (math.sqrt((bed.rod + side * crank) ** 2 - bed.offset**2) for side in (1.0, -1.0))
-    return 2.0 * (far - near)
+    return bracketed_root(lacks, low, most, tolerance=1e-9 * most)
 
 
 def _share(bed: BedChain, cylinder: CylinderChain) -> float:

@@ -18,6 +18,7 @@ from gearlink.core.base.spec import (
     LoadLimits,
     SignedLength,
     require_offset_below_rod,
+    require_stroke_or_crank,
 )
 from gearlink.core.parts.linkages.slider_crank import SliderCrank, quick_return
 
@@ -78,12 +79,7 @@ class SliderCrankSpec(DrivenSpec):
     def _one_size(self) -> SliderCrankSpec:
         if self.quick_return_ratio is not None:
             return self
-        if (self.stroke is None) == (self.crank is None):
-            if self.stroke is None:
-                raise PydanticCustomError("GL106", "give stroke, or crank instead", {"key": "stroke"})
-            raise PydanticCustomError(
-                "GL111", "stroke and crank exclude each other\nomit stroke or crank", {"key": "crank"}
-            )
+        require_stroke_or_crank(self.stroke, self.crank)
         return self
 
     def slider_crank(self) -> SliderCrank:

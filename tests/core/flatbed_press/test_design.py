@@ -254,6 +254,42 @@ def test_no_equal_speed_at_any_angle_and_the_sizes_that_help():
             _ = press(replace(short, **{size: value * (1.0 + beyond)})).sync_start
 
 
+def given_crank(oracle: Press = TY460, crank: float | None = None, **sections) -> FlatbedPress:
+    """The press with its crank DE instead of its stroke."""
+    made = press(oracle, **sections)
+    bed = made.spec.bed.model_dump(exclude_unset=True)
+    del bed["stroke"]
+    bed["crank"] = float(oracle.crank) if crank is None else crank
+    return factory.design(oracle.spec(**{"sync": {"length": 420.0, "print_length": 320.0}} | sections) | {"bed": bed})
+
+
+@pytest.mark.parametrize("name", sorted(PRESSES))
+def test_crank_instead_of_stroke_is_the_same_press(name):
+    """The oracle's crank of 40 digits, rounded once: each quantity to 1e-12 where it is well conditioned."""
+    by_stroke, by_crank = press(PRESSES[name]), given_crank(PRESSES[name])
+    assert by_crank.quantity("bed_stroke").value == pytest.approx(PRESSES[name].stroke, rel=1e-12)
+    assert by_stroke.quantity("bed_stroke") is None or by_stroke.quantity("bed_stroke").value is None
+    for name in ("sync_start", "sync_end", "compensation", "quick_return_ratio", "cam_sync_end"):
+        assert by_crank.quantity(name).value == pytest.approx(by_stroke.quantity(name).value, rel=1e-11), name
+
+
+def test_crank_too_small_for_a_zone_says_which_crank_helps():
+    with pytest.raises(NoSolution, match="no synchronous zone") as refusal:
+        given_crank(crank=15.0).report("press")
+    assert refusal.value.key == "bed.crank"
+    least = float(re.search(r"bed.crank to at least ([\d.]+) mm", str(refusal.value))[1])
+    assert given_crank(crank=least).sync_start > 0.0
+    with pytest.raises(NoSolution, match="no synchronous zone"):
+        _ = given_crank(crank=0.999 * least).sync_start
+
+
+@pytest.mark.parametrize(("sizes", "words"), [({"crank": 154.0}, "exclude each other"), ({"stroke": None}, "or crank")])
+def test_press_has_one_size(sizes, words):
+    bed = TY460.spec()["bed"] | sizes
+    with pytest.raises(ValidationError, match=words):
+        factory.design(TY460.spec() | {"bed": bed})
+
+
 @pytest.mark.parametrize("end", [20.0, 34.0])
 def test_zone_that_ends_before_it_starts(end):
     design = press(sync={"start": 34.0, "end": end})

@@ -132,6 +132,17 @@ def test_gains_by_duality_are_those_derived_by_hand() -> None:
         ), one.source
 
 
+def test_a_given_crank_has_the_gain_of_the_crank() -> None:
+    phi = np.radians([34.0, 70.0, 120.0, 150.0, 200.0, 300.0])
+    bed = press().design.spec.bed.model_dump(exclude_unset=True)
+    bed["crank"] = press().design.motion.slider_crank.crank_length
+    del bed["stroke"]
+    sources = {"sources": {"bed.crank": {"plus_minus": 0.01}}}
+    made = factory.design("ty460", command="register", bed=bed, tolerance=sources, register={})
+    (one,) = [one for one in made.contributions(phi, 1) if one.source == "bed.crank"]
+    assert one.gain == pytest.approx(PressGains(made.design, phi).of("bed.stroke", 1.0), abs=1e-12)
+
+
 def test_the_whole_chain_is_the_one_closed_by_hand() -> None:
     """Errors of 0.01 mm and 0.01 deg at once; what is left is the rounding of 620 mm."""
     made, phi, random = press(), np.radians([34.0, 70.0, 120.0, 150.0, 200.0]), np.random.default_rng(1)
