@@ -9,6 +9,7 @@ import itertools
 import json
 import math
 import os
+import signal
 import time
 from collections.abc import Generator
 from dataclasses import dataclass
@@ -25,6 +26,11 @@ from hypothesis.internal.constants_ast import Constants
 from gearlink.cli.main import run
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# A shell starts what runs in its background with interrupts ignored, and every process that is started from there
+# inherits it: the tests that interrupt a command would wait for ever.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # The collector finds little here and walks all modules, specs and figures to say so: what has been looked at once, it
 # leaves alone in `make test`, at a sixtieth more memory; the many figures of `make check-full` would fill it.

@@ -244,7 +244,7 @@ def test_a_key_says_unit_range_choice_and_kinds(gearlink: Any) -> None:
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
-    ("wrong", "near"), [("cam.leadin", "cam.lead_in"), ("phi_13", "phi13"), ("lead-in_", "lead_in")]
+    ("wrong", "near"), [("cam.leadin", "cam.lead_in"), ("phi31", "phi13"), ("lead-in_", "lead_in")]
 )
 def test_nearest_of_keys_and_symbols(gearlink: Any, wrong: str, near: str) -> None:
     ended = gearlink("explain", wrong)
