@@ -76,6 +76,10 @@ def _joined(values: Sequence[Any]) -> Any:
         raise Unlike
     if is_dataclass(first):
         return stacked(values)
+    if isinstance(first, dict):
+        if any(value.keys() != first.keys() for value in values):
+            raise Unlike
+        return {name: _joined([value[name] for value in values]) for name in first}
     if not isinstance(first, tuple):
         return column(values)
     if any(len(value) != len(first) for value in values):

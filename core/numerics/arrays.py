@@ -31,6 +31,17 @@ def largest(values: NDArray[Any]) -> Any:
     return found if found.ndim else found.item()
 
 
+def number_of(values: ArrayLike) -> Any:
+    """The number of an array that has but one; another array as it is.
+
+    Example
+        >>> number_of(np.ones(1)), number_of(np.ones((2, 1))).shape
+        (1.0, (2, 1))
+    """
+    found = np.asarray(values)
+    return found.item() if found.size == 1 else found
+
+
 def distinct(values: ArrayLike) -> NDArray[Any]:
     """Each value once, ascending.
 

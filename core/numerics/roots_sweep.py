@@ -21,7 +21,12 @@ _RESTS = 1e-9  # of x, the last Newton step; the error that it leaves is its squ
 
 
 def bracketed_roots(
-    f: Callable[[Reals], Reals], low: Reals, high: Reals, *, ends: tuple[Reals, Reals] | None = None
+    f: Callable[[Reals], Reals],
+    low: Reals,
+    high: Reals,
+    *,
+    ends: tuple[Reals, Reals] | None = None,
+    tolerance: float | Reals = 0.0,
 ) -> Reals:
     """Roots between two arrays of places where a function has opposite signs, as `roots.bracketed_root` finds one.
 
@@ -29,10 +34,11 @@ def bracketed_roots(
         f : function of an (N,) array, element by element
         low, high : (N,) arrays
         ends : ((N,) array, (N,) array) - f(low) and f(high) where the caller has them already
+        tolerance : float or (N,) array - absolute tolerance in x besides two ulp of x
     Returns
         roots : (N,) array - NaN where the signs are equal, or the function gives NaN
     Notes
-        Each element rests by itself, at the last bit of x: no bit of its root depends on the others. Where f jumps
+        Each element rests by itself, at its tolerance: no bit of its root depends on the others. Where f jumps
         across 0 that place is found, by bisection.
     Example
         >>> bracketed_roots(lambda x: x * x - np.array([2.0, 9.0]), np.zeros(2), np.full(2, 5.0)).round(9).tolist()
@@ -57,7 +63,7 @@ def bracketed_roots(
             a, b, c, fa, fb, fc = narrowed(x, a, b, fx, fa, fb)
             nearest = np.abs(fa) < np.abs(fb)
             best = np.where(rests, best, np.where(nearest, a, b))
-            reach = 2.0 * np.spacing(np.abs(best))
+            reach = 2.0 * np.spacing(np.abs(best)) + tolerance
             rests |= ~valid | (np.where(nearest, fa, fb) == 0.0) | (np.abs(b - a) <= reach)
             least = np.minimum(0.5, reach / np.abs(b - a))
             share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))

@@ -198,7 +198,7 @@ SHRINK = 0.7
 _SETTLED = 1e-13
 _BESIDE = 0.01
 """Share of the way to mid-swing below which a step is too short to tell the bend between its ends."""
-_KNOWN = 1e-16
+KNOWN = 1e-16
 """Fractions of the stroke are known no better."""
 
 
@@ -221,7 +221,7 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float, noise
     """
 
     def clearance(t: Reals) -> Reals:
-        return _room(step(t), roller_radius)
+        return roller_room(step(t), roller_radius)
 
     t = shrinking(far, 0.01 * estimate / far)
     room = clearance(t)
@@ -237,9 +237,9 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float, noise
         return 0.0
     (low, high), ends = (rows[[within[0], within[0] - 1]].tolist() for rows in (t, room))
     if not noise:
-        return root_between(clearance, low, high, tolerance=_KNOWN)
+        return root_between(clearance, low, high, tolerance=KNOWN)
     # of the places that rounding takes for roots the last one is found as before: a curvature beside it has no bound
-    known = _KNOWN + noise / low
+    known = KNOWN + noise / low
     return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known, ends=ends)
 
 
@@ -328,7 +328,8 @@ def roller_before_middle(cam: WideSwingCam, k: float) -> float:
     return cam.center_distance / bend if bend > 0.0 else math.inf
 
 
-def _room(step: tuple[Reals, Reals], roller_radius: float) -> Reals:
+def roller_room(step: tuple[Reals, Reals], roller_radius: float) -> Reals:
+    """By how much the square of a step's length exceeds that on the circle of the roller at the stop [mm^2]."""
     length, depth = step
     room: Reals = length * length - 2.0 * roller_radius * depth
     return room
@@ -764,7 +765,7 @@ class WideSwingCam(StrokeCam):
 
     def room_at(self, turn: Reals) -> Reals:
         """How far the profile at angles of the law is from the roller at k*: |d|^2 + 2 r_p d n [mm^2]."""
-        return _room(self.step_at(turn), self.roller_radius)
+        return roller_room(self.step_at(turn), self.roller_radius)
 
     def _step(self, state: CurveState) -> tuple[Reals, Reals]:
         # z(k) - z(k*) in terms that vanish there, each of them exact

@@ -278,7 +278,11 @@ class ElasticLaw:
             NoSolution - for k outside 0 to 1
         """
         sine, cosine, second = self._pendulum(k)
-        return self._view(np.where(second, sine, -sine), cosine)
+        view = self._view(np.where(second, sine, -sine), cosine)
+        if np.ndim(k) < 2:
+            return view
+        parts = (view.angle, view.velocity, view.deficit, view.acceleration)
+        return MiddleView(*(part.reshape(k.shape) for part in parts))
 
     def _view(self, sine: Reals, cosine: Reals) -> MiddleView:
         """The same from sin u and cos u, both signs of u."""

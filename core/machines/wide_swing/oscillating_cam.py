@@ -6,7 +6,6 @@ turns evenly; the wide-swing rocker follows its law of motion over the same stro
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass, replace
 from functools import partial
@@ -28,7 +27,7 @@ from gearlink.core.machines.wide_swing.cam import (
     too_small_swing,
 )
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, number_of
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.roots import bracketed_root
@@ -133,7 +132,7 @@ _FAR = 0.98
 """Part of the way from one stop to the next over which a roller that stands is looked at."""
 _SHORT = 0.02
 """Part of the stroke beside a stop in which a step is integrated: the differences of places keep 11 digits beyond."""
-_NOISE = 1e-15
+NOISE = 1e-15
 """How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
 
@@ -192,7 +191,7 @@ class StoppingState(CurveState):
         """Infinite at the stops, on the side to which the curve bends there."""
         found = super().curvature
         for stop, (bend, *_) in self.cam.stops.items():
-            found[self.k == stop] = math.copysign(math.inf, bend)
+            found = np.where(self.k == stop, np.copysign(math.inf, bend), found)
         return found
 
     @property
@@ -291,19 +290,20 @@ class OscillatingCam(StrokeCam):
         return {k: self._stop_at(k) for k in (0.0, self.middle, 1.0)}
 
     def _stop_at(self, k: float) -> tuple[float, float, complex]:
-        chi, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([k]), 3))
+        chi, chi1, chi2, chi3 = self.drive.motion(np.array([k]), 3)
         swing, r = self.law.swing, self.ratio
         view = self.law.middle_view(np.array([k]))
-        phi1, phi2 = swing * float(view.velocity[0]), swing * float(view.acceleration[0])
+        phi1, phi2 = swing * view.velocity, swing * view.acceleration
         # at the ends the rocker stands still, and the jerk that the law gives it with it
         phi3 = swing * self.law.middle_jerk if k == self.middle else 0.0
-        arm = r * cmath.exp(1j * float(view.angle[0]))
+        arm = r * np.exp(1j * view.angle)
         f, f1 = arm - 1.0, 1j * phi1 * arm
         f2, f3 = (1j * phi2 - phi1**2) * arm, (1j * phi3 - 3.0 * phi1 * phi2 - 1j * phi1**3) * arm
         second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
         third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
         third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
-        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second), cmath.exp(1j * chi) * f
+        size = np.abs(second)
+        return number_of((np.conj(second) * third).imag / size**2), number_of(size), number_of(np.exp(1j * chi) * f)
 
     @property
     def transition_zone_estimate(self) -> float:
@@ -315,9 +315,9 @@ class OscillatingCam(StrokeCam):
             NoSolution - where the pitch curve has a loop
         """
         self.require_profile()
-        return self._left(self.middle)
+        return self.left(self.middle)
 
-    def _left(self, stop: float) -> float:
+    def left(self, stop: float) -> float:
         """Part of the stroke over which the roller leaves a stop, to leading order."""
         bend, second, _ = self.stops[stop]
         return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
@@ -340,14 +340,18 @@ class OscillatingCam(StrokeCam):
         """How far from a stop, on one side of it, the roller that stands there covers the profile."""
         if self.stops[stop][0] <= 0.0:
             return stop
-        estimate = self._left(stop)
+        estimate = self.left(stop)
         if estimate < SMALLEST:
             return stop + side * estimate
-        other = self.middle if stop in (0.0, 1.0) else 0.5 + 0.5 * side
-        far = _FAR * abs(other - stop)
+        far = self.far_from(stop, side)
         return stop + side * covered(
-            lambda t: self.step(stop + side * t, stop), self.roller_radius, far, estimate, _NOISE
+            lambda t: self.step(stop + side * t, stop), self.roller_radius, far, estimate, NOISE
         )
+
+    def far_from(self, stop: float, side: float) -> float:
+        """Way from a stop, on one side of it, at which the profile must be free of the roller that stands there."""
+        other = self.middle if stop in (0.0, 1.0) else 0.5 + 0.5 * side
+        return _FAR * abs(other - stop)
 
     def state(self, k: Reals) -> StoppingState:
         """Cam and roller at fractions k of the stroke."""
@@ -375,17 +379,18 @@ class OscillatingCam(StrokeCam):
         state, size = self.state(k), self.center_distance
         step = state.pitch - self.stops[stop][2]
         near = np.abs(k - stop) <= _SHORT  # of two places nearly alike few digits would be left
-        if near.any():
-            step[near] = self._short_step(k[near], stop)
+        some = near.reshape(-1, k.shape[-1]).any(axis=0)
+        if some.any():
+            step[..., some] = np.where(near[..., some], self._short_step(k[..., some], stop), step[..., some])
         return size * np.abs(step), -size * (step * np.conj(state.normal)).real
 
     def _short_step(self, k: Reals, stop: float) -> Points:
         """The steps as integrals of the velocity, whose digits are right down to the stop."""
         nodes, weights = gauss_legendre(12)
         half = 0.5 * (k - stop)
-        state = self.state((stop + half[:, None] * (1.0 + nodes)).ravel())
-        velocity = (-1j * np.exp(1j * state.theta) * state.gradient).reshape(k.size, nodes.size)
-        return np.asarray(self.cycle_angle * half * (velocity @ weights))
+        state = self.state((stop + half[..., None] * (1.0 + nodes)).reshape(*k.shape[:-1], -1))
+        velocity = -1j * np.exp(1j * state.theta) * state.gradient
+        return np.asarray(self.cycle_angle * half * (velocity.reshape(*k.shape, nodes.size) @ weights))
 
     @cached_property
     def max_pressure_angle(self) -> float:
@@ -400,7 +405,8 @@ class OscillatingCam(StrokeCam):
 
         # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
         inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(self.middle,), samples=256).value
-        return max(inside, float(size(np.array([0.0, 1.0])).max()))
+        steepest: float = number_of(np.maximum(inside, size(np.array([0.0, 1.0])).max(axis=-1, keepdims=True)))
+        return steepest
 
     def pressure_angle(self, k: Reals) -> Reals:
         """Pressure angle at fractions of the stroke [rad].
@@ -415,7 +421,7 @@ class OscillatingCam(StrokeCam):
     def tops(self) -> list[list[Extreme]]:
         """Maximum bulge where the roller touches the profile; at an end that is hollow nothing is to be found."""
         (first, start), (end, last) = self.contact
-        parts = ((max(first, _STOP), start), (end, min(last, 1.0 - _STOP)))
+        parts = ((number_of(np.maximum(first, _STOP)), start), (end, number_of(np.minimum(last, 1.0 - _STOP))))
         return extremes_of_parts([(lambda k: self.state(k).bulge, True)], parts, samples=128)
 
     def require_profile(self) -> None:
@@ -424,7 +430,7 @@ class OscillatingCam(StrokeCam):
         Raises
             NoSolution - with what to change
         """
-        if self.loop_margin <= 0.0:
+        if np.any(self.loop_margin <= 0.0):
             raise NoSolution(
                 (f"the pitch curve has a loop at mid-swing (measure {self.loop_margin:.4g}, must be above 0)"),
                 fix="put mid-swing nearer to the cam's largest speed by changing the link lengths",
@@ -519,8 +525,10 @@ def greatest_need(cam: OscillatingCam) -> Extreme:
     Raises
         NoSolution - for a loop, or where the roller touches nothing
     """
-    found = [each for (each,) in extremes_of_parts([(partial(need_home, cam), True)], cam.contact, samples=128)]
-    return max(*found, Extreme(1.0, 0.0), key=lambda extreme: extreme.value)
+    (one,), (other,) = extremes_of_parts([(partial(need_home, cam), True)], cam.contact, samples=128)
+    later = np.greater(other.value, one.value)
+    value, place = np.where(later, other.value, one.value), np.where(later, other.place, one.place)
+    return Extreme(number_of(np.maximum(value, 1.0)), number_of(np.where(value < 1.0, 0.0, place)))
 
 
 def need_home(cam: OscillatingCam, k: Reals) -> Reals:

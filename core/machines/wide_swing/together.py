@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.base.errors import GearlinkError, NoSolution
-from gearlink.core.base.many_designs import hand_in, hand_on, hand_out, in_groups, sought, stacked
+from gearlink.core.base.many_designs import column, hand_in, hand_on, hand_out, in_groups, sought, stacked
 from gearlink.core.base.results import keep
-from gearlink.core.machines.wide_swing.cam import SMALLEST, WideSwingCam, shrinking
-from gearlink.core.machines.wide_swing.law import ElasticLaw
+from gearlink.core.machines.wide_swing.cam import KNOWN, SMALLEST, StrokeLaw, WideSwingCam, roller_room, shrinking
+from gearlink.core.machines.wide_swing.law import ElasticLaw, MiddleView
+from gearlink.core.machines.wide_swing.oscillating_cam import NOISE, OscillatingCam, greatest_need
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.periodic import CosineSeries
@@ -22,6 +23,7 @@ from gearlink.core.numerics.roots_sweep import bracketed_roots
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cycle import ClosedCam
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 _GEOMETRY = (
     "ratio", "half_sine", "half_cosine", "shortest", "longest", "reach", "stroke", "mounting", "stiffness",
@@ -39,6 +41,8 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
     cams = [cam for design in designs for cam in _cams_of(design) if cam.given_rocker_radius is None]
     for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law))):
         sought(lambda some: _find_cams(some, asked), group)
+    driven = [design for design in designs if _is_driven(design)]
+    sought(_find_driven, driven)
     if "closed-contour" in asked:
         closed = [cam for design in designs if design.spec.cycle is not None for cam in _contours(design)]
         for cycle in in_groups(closed, _alike):
@@ -109,7 +113,7 @@ def _find_cams(cams: Sequence[WideSwingCam], asked: frozenset[str]) -> None:
     sought(lambda some: _find_tops(some, asked), [cam for cam in there if _is_touched(cam)])
 
 
-def _exists(cam: WideSwingCam) -> bool:
+def _exists(cam: AnyCam) -> bool:
     with suppress(NoSolution):
         cam.require_profile()
         return True
@@ -159,6 +163,116 @@ def _find_tops(cams: Sequence[WideSwingCam], asked: frozenset[str]) -> None:
     hand_out(many, cams, "tops")
     if "contact_force" in asked and many.symmetric:
         hand_out(many, cams, "pressing")
+
+
+# Cams on the rocker of a crank-rocker
+
+
+class _Laws:
+    """Laws of motion of many rockers: numbers are columns, and a view has a row for each."""
+
+    def __init__(self, laws: Sequence[StrokeLaw]) -> None:
+        self.laws = laws
+        self.place = laws[0].place
+        for name in ("swing", "velocity_peak", "acceleration", "middle_jerk"):
+            setattr(self, name, column([getattr(law, name) for law in laws]))
+
+    def middle_view(self, k: Reals) -> MiddleView:
+        """That of each law at its row of k, or at all of k."""
+        rows = np.broadcast_to(k, (len(self.laws), k.shape[-1]))
+        views = [law.middle_view(row) for law, row in zip(self.laws, rows, strict=True)]
+        return MiddleView(
+            *(np.stack([getattr(view, name) for view in views]) for name in MiddleView.__dataclass_fields__)
+        )
+
+
+def _is_driven(design: WideSwingDesign) -> bool:
+    """Whether the file has a cam on a crank-rocker, whose rocker drives no slider."""
+    spec = design.spec
+    if spec.drive is None or spec.slider is not None or spec.cam is None:
+        return False
+    with suppress(GearlinkError):
+        return design.oscillating_cam.ratio > 0.0
+    return False
+
+
+def _driven(cams: Sequence[OscillatingCam]) -> OscillatingCam:
+    """All of them as one."""
+    laws, drives = [cam.law for cam in cams], [cam.drive for cam in cams]
+    many = stacked(cams, law=laws[0] if all(law is laws[0] for law in laws) else _Laws(laws), drive=stacked(drives))
+    hand_in(many.drive, drives, "crank_angles", "_middle")
+    hand_in(many, cams, "_middle", "ratio", "middle_pressure_angle")
+    return many
+
+
+def _find_driven(designs: Sequence[WideSwingDesign]) -> None:
+    """Stops; of cams without a loop where the roller touches them, extremes there, and the need of the way home."""
+    cams = [design.oscillating_cam for design in designs]
+    hand_out(_driven(cams), cams, "stops")
+    there = [design for design in designs if _exists(design.oscillating_cam)]
+    sought(_find_covers, [design.oscillating_cam for design in there])
+    sought(_find_driven_tops, [design for design in there if "contact" in vars(design.oscillating_cam)])
+
+
+def _find_driven_tops(designs: Sequence[WideSwingDesign]) -> None:
+    cams = [design.oscillating_cam for design in designs]
+    many = _driven(cams)
+    hand_in(many, cams, "stops", "contact")
+    hand_out(many, cams, "tops", "max_pressure_angle")
+    hand_on([design.unloading for design in designs], way_back=greatest_need(many))
+
+
+def _find_covers(cams: Sequence[OscillatingCam]) -> None:
+    """Where the roller leaves the profile; where it covers half of the stroke the cam says so itself."""
+    middle = cams[0].middle
+    ends = [(0.0, 1.0), (middle, -1.0), (middle, 1.0), (1.0, -1.0)]
+    found = np.array([_covers(cams, stop, side) for stop, side in ends])
+    rows = np.flatnonzero(~np.isnan(found).any(axis=0))
+    first, before, after, last = found[:, rows, None]
+    hand_on([cams[row] for row in rows.tolist()], contact=((first, before), (after, last)))
+
+
+def _covers(cams: Sequence[OscillatingCam], stop: float, side: float) -> Reals:
+    """`OscillatingCam.cover` of each cam; NaN of those that it refuses."""
+    found = np.full(len(cams), stop)
+    estimates = np.array([cam.left(stop) for cam in cams])
+    bulging = np.array([cam.stops[stop][0] > 0.0 for cam in cams])
+    small = bulging & (estimates < SMALLEST)
+    found[small] += side * estimates[small]
+    rows = np.flatnonzero(bulging & ~small)
+    if rows.size:
+        some = [cams[row] for row in rows.tolist()]
+        found[rows] = stop + side * _ways(some, stop, side, estimates[rows])
+    return found
+
+
+def _ways(cams: Sequence[OscillatingCam], stop: float, side: float, estimates: Reals) -> Reals:
+    """Ways from a stop over which the roller, standing there, covers the profile, as `covered` finds them."""
+    many = _driven(cams)
+    hand_in(many, cams, "stops")
+
+    def room(t: Reals) -> Reals:
+        return roller_room(many.step(stop + side * t, stop), many.roller_radius)
+
+    far = many.far_from(stop, side)
+    each = [shrinking(far, 0.01 * estimate / far) for estimate in estimates.tolist()]
+    t = max(each, key=len)
+    rooms = room(np.broadcast_to(t, (len(cams), t.size)))
+    looked_at = np.arange(t.size) < np.array([[part.size] for part in each])
+    cut = (rooms < 0.0) & looked_at
+    at = np.argmax(cut, axis=1)
+    ways = np.where(cut.any(axis=1), np.nan, 0.0)
+    ways[rooms[:, 0] <= 0.0] = np.nan
+    rows = np.flatnonzero(at > 0)
+    if rows.size:
+        some = [cams[row] for row in rows.tolist()]
+        many = _driven(some)
+        hand_in(many, some, "stops")
+        low, high = t[at[rows]], t[at[rows] - 1]
+        ends = rooms[rows, at[rows]], rooms[rows, at[rows] - 1]
+        known = KNOWN + NOISE / low
+        ways[rows] = bracketed_roots(lambda t: room(t[:, None])[:, 0], low, high, ends=ends, tolerance=known)
+    return ways
 
 
 def _contours(design: WideSwingDesign) -> list[ClosedCam]:

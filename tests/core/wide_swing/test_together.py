@@ -24,6 +24,10 @@ STUDIES: dict[str, tuple[str, dict[str, float]]] = {
     "slider": ("wide_swing_slider_cam", SLIDER),
     "parallel shafts": ("wide_swing_parallel", CAM | {"cam.second.center_distance": 10.0}),
     "rocker": ("wide_swing_twin_rocker", CAM),
+    "laws on a crank-rocker": (
+        "wide_swing_oscillating_cam",
+        LAW | {"swing": 4.0, "drive.crank": 2.0, "drive.frame": 4.0},
+    ),
     "carried by a crank-rocker": ("wide_swing_oscillating_cam", CAM | {"drive.coupler": 10.0}),
 }
 OF_CONTACT = ("transition_zone", "min_curvature_radius")
@@ -94,6 +98,29 @@ def test_cams_of_sliders_and_free_sectors_are_found_together() -> None:
         assert "pressing" not in vars(design.slider_cam)
     for design in _found("wide_swing_cycle", CAM | LAW, "closed-contour"):
         assert all("free" in vars(closed) for closed in design.cycle.contours.values())
+
+
+@pytest.mark.parametrize("widths", [CAM, CAM | {"swing": 5.0}])
+def test_cams_on_crank_rockers_are_found_together(widths: dict[str, float]) -> None:
+    for design in _found("wide_swing_oscillating_cam", widths, "max_pressure_angle"):
+        assert {"stops", "contact", "tops", "max_pressure_angle"} <= set(vars(design.oscillating_cam))
+        assert "way_back" in vars(design.unloading)
+
+
+@pytest.mark.slow
+def test_crank_rockers_that_do_not_exist_leave_the_others_found_together() -> None:
+    wrong: list[list[tuple[str, Any]]] = [
+        [("cam.roller_radius", 150.0)],  # covers its profile
+        [("cam.roller_radius", 1e-3)],
+        [("drive.crank", 200.0)],  # no crank-rocker
+        [("drive.frame", 320.0)],
+        [("unloader.pivot_ratio", 1.0)],
+        [("swing", 10.0)],
+    ]
+    rows = [*_rows(_base("wide_swing_oscillating_cam"), CAM | {"drive.crank": 2.0}, 12), *wrong]
+    random.Random(3).shuffle(rows)
+    found = _study("wide_swing_oscillating_cam", rows)
+    assert sum(bool(one.refused) for one in found) >= 2
 
 
 def test_designs_of_one_device_and_swing_share_their_law() -> None:
