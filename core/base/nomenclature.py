@@ -904,7 +904,7 @@ _LOADS = {
     "peak": Term("F_max", "N", "maximum force of a pin over the period"),
     "equivalent": Term("P", "N", "equivalent load of a pin over its relative turning, exponent 3 or 10/3", "ISO 281"),
     "travel": Term("", "1", "relative turns of a pin per input turn, both senses counted"),
-    "life": Term("L_10", "h", "basic rating life of a pin's bearing", "ISO 281"),
+    "life": Term("L_10", "h", "rating life of a pin's bearing, at its reliability", "ISO 281"),
     "bearing_pressure": Term("p", "N/mm^2", "maximum pressure of a pin's plain bearing, F/(b d)"),
     "counterweight_crank": Term("U_1", "kg mm", "mass moment of the counterweight on the crank"),
     "counterweight_crank_direction": Term(

@@ -89,11 +89,11 @@ SPEED_FLUCTUATION = Rule(
 BEARING_LIFE = Rule(
     "GL606",
     "bearing life",
-    "The basic rating life of a pin's bearing is below the required one, or it swings too little for rolling "
+    "The rating life of a pin's bearing is below the required one, or it swings too little for rolling "
     "bodies, or helical teeth push along its axis, which forces in the plane of the machine do not show.",
     "A bearing that fails stops the machine; one that only swings brinells at the same few positions.",
     "Take a bearing of a higher rating, or a plain one where the swing is small; less mass lowers the load.",
-    "L_10 = (C/P)^p 10^6 relative turns",
+    "L_n = a_1 (C/P)^p 10^6 relative turns, a_1 = 1 at 90 % reliability",
     "ISO 281",
     checks=("bearing-life",),
     keys=("loads.bearings",),

@@ -122,14 +122,14 @@ class BearingLoad:
 
     @cached_property
     def life(self) -> float | None:
-        """Basic rating life of the bearing that the file gives [h]; None where it gives none, or a plain one.
+        """Rating life of the file's bearing at its reliability [h]; None where it gives none, or a plain one.
 
-        L_10 = (C/P)^p 10^6 relative turns
+        L_n = a_1 (C/P)^p 10^6 relative turns
         """
         bearing = self.bearing
         if bearing is None or bearing.dynamic_rating is None or not self.equivalent:
             return None
-        turns = (bearing.dynamic_rating / self.equivalent) ** self.exponent * 1e6
+        turns = bearing.reliability_factor * (bearing.dynamic_rating / self.equivalent) ** self.exponent * 1e6
         per_hour = self.travel * abs(self.design.speed) / (2.0 * math.pi) * 3600.0
         return float(turns / per_hour)
 

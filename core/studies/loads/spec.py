@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
@@ -213,6 +214,9 @@ class Bearing(Spec):
     life: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "h"})] | None = Field(
         None, description="minimum life"
     )
+    reliability: Annotated[float, Field(ge=90, le=99.95, json_schema_extra={"unit": "%"})] = Field(
+        90.0, description="share of bearings that reach the life"
+    )
     width: Length | None = Field(None, description="plain: width b")
     diameter: Length | None = Field(None, description="plain: diameter d")
     rolling_bodies: Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})] | None = Field(
@@ -230,6 +234,18 @@ class Bearing(Spec):
         if self.kind != "plain" and self.dynamic_rating is None:
             raise PydanticCustomError("GL106", "a rolling bearing needs dynamic_rating", {"key": "kind"})
         return self
+
+    @property
+    def reliability_factor(self) -> float:
+        """a_1 of ISO 281: life of that reliability over the one that 90 % reach.
+
+        a_1 = 0.05 + 0.95 (ln(100/S)/ln(100/90))^(2/3)
+
+        Source
+            ISO/TR 1281-2, Weibull's distribution with slope 1.5 above 0.05 L_10; rounded it is table 12 of ISO 281:2007
+        """
+        share: float = math.log(100.0 / self.reliability) / math.log(100.0 / 90.0)
+        return 0.05 + 0.95 * math.cbrt(share * share)
 
 
 class Vibration(Spec):

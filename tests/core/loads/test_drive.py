@@ -252,6 +252,30 @@ def test_life_is_that_of_its_formula() -> None:
     assert pin.life == pytest.approx(turns / (pin.travel * 120.0 * 60.0), rel=1e-12)
 
 
+TABLE_12 = {
+    95: 0.64,
+    96: 0.55,
+    97: 0.47,
+    98: 0.37,
+    99: 0.25,
+    99.2: 0.22,
+    99.4: 0.19,
+    99.6: 0.16,
+    99.8: 0.12,
+    99.9: 0.093,
+}
+TABLE_12 |= {90: 1.0, 99.92: 0.087, 99.94: 0.080, 99.95: 0.077}
+
+
+@pytest.mark.parametrize(("reliability", "factor"), TABLE_12.items())
+def test_life_of_a_reliability_is_that_of_iso_281(reliability: float, factor: float) -> None:
+    """The table has two digits."""
+    bearing = {"kind": "ball", "dynamic_rating": 17000, "life": 1e6}
+    basic = feed(bearings={"C": bearing}).pin("C").life
+    found = feed(bearings={"C": bearing | {"reliability": reliability}}).pin("C").life / basic
+    assert float(f"{found:.2g}") == factor
+
+
 def test_full_balance_of_a_four_bar() -> None:
     links, loads = DATA["four_bar"]["spec"]["links"], DATA["four_bar"]["spec"]["loads"]["links"]
     masses = {name: Mass(body["mass"], body["inertia"], complex(*body["center"])) for name, body in loads.items()}
