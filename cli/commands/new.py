@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator, Mapping, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,6 @@ from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
 from gearlink.cli.texts.schema import SpecKey, index, spec_keys, worked_design
 from gearlink.core.base.kinds import FILES, KINDS
-from gearlink.core.base.spec_paths import part_at
 
 if TYPE_CHECKING:
     from gearlink.core.base.kind import Kind
@@ -99,18 +99,26 @@ def _read(text: str) -> Any:
 
 def _left_out(kind: Kind, text: str) -> str:
     """The keys that a design leaves out, as comments; nothing where it uses all."""
-    data = _read(text)
-    rows, above = [], ""
-    for key in spec_keys(kind):
+    data, keys = _read(text), spec_keys(kind, entries=True)
+    of: dict[str, set[str]] = {}
+    for key in keys:
         parent, _, name = key.path.rpartition(".")
-        section = part_at(data, parent)
-        if isinstance(section, str) and parent != above:
-            above = parent
-            rows.append((f"# {parent}:", f"a section instead of {section}"))
-        if not (isinstance(section, dict) and name in section):
-            # In a section that the file has, the whole path tells where the key belongs.
-            label = key.path if isinstance(section, dict) else "  " * key.path.count(".") + name
-            rows.append((f"# {label}:{_default(key)}", _meaning(key)))
+        of.setdefault(parent, set()).add(name)
+    rows: list[tuple[str, str]] = []
+    begun = {""}
+    for key in keys:
+        parent, _, name = key.path.rpartition(".")
+        holders = _holders(data, parent)
+        there = [each for each in holders if isinstance(each, dict)]
+        if any(name in each for each in there) or _is_second(data, parent, of):
+            continue
+        if parent not in begun and not there:
+            rows += _heading(parent, holders, listed=parent.removesuffix("[]") in of)
+        # In a section that the file has, the whole path tells where the key belongs.
+        label = key.path if there else _indented(parent, name, parent not in begun)
+        default = "" if {f"{key.path}[]", f"{key.path}.NAME"} & of.keys() else _default(key)
+        rows.append((f"# {label}:{default}", _meaning(key)))
+        begun.add(parent)
     if not rows:
         return ""
     width = max(len(label) for label, _ in rows)
@@ -118,6 +126,48 @@ def _left_out(kind: Kind, text: str) -> str:
     return "\n# Keys that this file leaves out, with their defaults; a.b is b in the section a:\n" + "\n".join(
         [*lines, ""]
     )
+
+
+def _holders(data: Any, parent: str) -> list[Any]:
+    """What stands in the file at a section, at each element of a list, or at each entry with a name."""
+    found = [data]
+    for step in re.split(r"\.|(?=\[\])", parent) if parent else ():
+        if step == "[]":
+            found = [each for part in found if isinstance(part, list) for each in part]
+        elif step == "NAME":
+            found = [each for part in found if isinstance(part, dict) for each in part.values()]
+        else:
+            found = [part[step] for part in found if isinstance(part, dict) and step in part]
+    return found
+
+
+def _is_second(data: Any, parent: str, of: Mapping[str, Set[str]]) -> bool:
+    """Whether it is in a list, not in the file, that may stand instead of a section with the same keys."""
+    ends = [sign.start() for sign in re.finditer(r"\[\]", parent)]
+    lists = [(parent[:end], parent[: end + 2]) for end in ends]
+    return any(of.get(one) == of.get(all_) and not _holders(data, all_) for one, all_ in lists)
+
+
+def _heading(parent: str, holders: Sequence[Any], *, listed: bool) -> Iterator[tuple[str, str]]:
+    """The line above the keys of a section that the file has as one word or a list, or of entries with names."""
+    given = [each for each in holders if isinstance(each, str | list)]
+    if given:
+        yield f"# {parent}:", f"a section instead of {given[0] if isinstance(given[0], str) else 'the list'}"
+    elif parent.endswith("[]") and listed:
+        before, _, name = parent.removesuffix("[]").rpartition(".")
+        yield f"# {_margin(f'{before}.') if before else ''}{name}:", "a list instead of the section"
+    elif parent.endswith(".NAME"):
+        yield f"# {_margin(parent.removesuffix('.NAME'))}  NAME:", "an entry for each, under its name"
+
+
+def _margin(path: str) -> str:
+    return "  " * (path.count(".") + path.count("[]"))
+
+
+def _indented(parent: str, name: str, first: bool) -> str:
+    """A key as it stands in a section of its own; the first one of an element of a list with its dash."""
+    before = _margin(f"{parent}.") if parent else ""
+    return f"{before[:-2]}- {name}" if first and parent.endswith("[]") else f"{before}{name}"
 
 
 def _default(key: SpecKey) -> str:
@@ -134,4 +184,5 @@ def _meaning(key: SpecKey) -> str:
     if key.section:
         return uncapitalised(key.words)
     unit = "" if key.unit in ("", "1", "teeth") else f"{key.unit}: "
-    return unit + key.words + (f" ({key.range})" if key.range else "")
+    needed = "; required" if key.required else ""
+    return unit + key.words + (f" ({key.range})" if key.range else "") + needed

@@ -163,16 +163,17 @@ class SpecKey:
     also: tuple[str, ...] = ()
 
 
-def spec_keys(kind: Kind, last: str = "") -> list[SpecKey]:
+def spec_keys(kind: Kind, last: str = "", *, entries: bool = False) -> list[SpecKey]:
     """The keys of a kind in the order of its model, sections before what they hold, each once.
 
     Parameters
         kind : Kind
         last : str - the last word of those that are wanted, or a standard term of theirs; all where it is empty
+        entries : bool - also those of elements of lists, `forces[].on`, and of entries with names, `bearings.NAME.kind`
     """
     schema = kind_schema(kind)
     found: dict[str, SpecKey] = {}
-    for key in _keys(schema, schema["definitions"], "", last):
+    for key in _keys(schema, schema["definitions"], "", last, 2 if entries else 0):
         before = found.setdefault(key.path, key)
         if key.range != before.range:  # `type` of a section that has several
             either = [*before.range.split(" or "), *key.range.split(" or ")] if before.range and key.range else []
@@ -180,7 +181,8 @@ def spec_keys(kind: Kind, last: str = "") -> list[SpecKey]:
     return list(found.values())
 
 
-def _keys(section: Node, definitions: Node, before: str, last: str) -> Iterator[SpecKey]:
+def _keys(section: Node, definitions: Node, before: str, last: str, deep: int) -> Iterator[SpecKey]:
+    """Those of a section and of the sections in it, through so many lists and names."""
     required = {*section.get("required", ()), *_either(section)}
     for name, node in section.get("properties", {}).items():
         if "aliasOf" in node:
@@ -199,7 +201,9 @@ def _keys(section: Node, definitions: Node, before: str, last: str) -> Iterator[
                 tuple(node.get("also", ())),
             )
         for part in inner:
-            yield from _keys(part, definitions, path + ".", last)
+            yield from _keys(part, definitions, path + ".", last, deep)
+        for sign, part in _entries(node, definitions) if deep else ():
+            yield from _keys(part, definitions, f"{path}{sign}.", last, deep - 1)
 
 
 def _either(section: Node) -> Iterator[str]:
@@ -217,6 +221,17 @@ def _sections(node: Node, definitions: Node) -> Iterator[Node]:
     for combination in ("allOf", "anyOf", "oneOf"):
         for part in node.get(combination, ()):
             yield from _sections(part, definitions)
+
+
+def _entries(node: Node, definitions: Node) -> Iterator[tuple[str, Node]]:
+    """Sections that are elements of a list, or entries with names."""
+    for item in _elements(node):
+        yield from (("[]", part) for part in _sections(item, definitions))
+    if isinstance(named := node.get("additionalProperties"), dict):
+        yield from ((".NAME", part) for part in _sections(named, definitions))
+    for combination in ("allOf", "anyOf", "oneOf"):
+        for part in node.get(combination, ()):
+            yield from _entries(part, definitions)
 
 
 def _range(node: Node) -> str:

@@ -207,7 +207,7 @@ class Motor(Spec):
 class Bearing(Spec):
     """A bearing of a pin."""
 
-    kind: Literal["ball", "roller", "needle", "plain"] = Field(description="exponent 3 for balls, 10/3 for rollers")
+    kind: Literal["ball", "roller", "needle", "plain"] = Field(description="rolling bodies, or a plain bearing")
     dynamic_rating: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
         None, description="basic dynamic load rating C"
     )

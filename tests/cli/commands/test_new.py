@@ -65,7 +65,7 @@ def test_a_section_that_may_be_one_word_has_a_heading_of_its_own(gearlink: Any) 
 def test_template_shows_every_key(gearlink: Any, kind: str) -> None:
     """Each key stands in the design or in the comments below it."""
     text = gearlink("new", kind).out
-    for key in spec_keys(KINDS[kind]):
+    for key in spec_keys(KINDS[kind], entries=True):
         name = key.path.rpartition(".")[2]
         assert re.search(rf"\b{name}:", text), key.path
 
@@ -94,7 +94,19 @@ def test_keys_in_sections_of_the_file_are_dotted(gearlink: Any) -> None:
     text = gearlink("new", "three-gear-four-bar").out
     assert re.search(r"^# gears\.pressure_angle: 20 +# deg: .*\(above 0, below 45\)$", text, re.MULTILINE)
     assert re.search(r"^# links: +# ", text, re.MULTILINE)
-    assert re.search(r"^#   crank: +# mm: crank AB \(above 0\)$", text, re.MULTILINE)
+    assert re.search(r"^#   crank: +# mm: crank AB \(above 0\); required$", text, re.MULTILINE)
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("kind", KINDS)
+def test_sections_lists_and_named_entries_are_yaml_without_their_marks(gearlink: Any, kind: str) -> None:
+    _, _, left_out = gearlink("new", kind).out.partition("# Keys that this file leaves out")
+    lines = [line[2:] for line in left_out.splitlines()[1:]]
+    read = yaml.safe_load("\n".join(lines)) if lines else {}
+    if kind == "three-gear-four-bar":
+        assert read["loads"]["forces"][0]["torque"]["zones"] == [{"from": None, "to": None, "value": None}]
+        assert read["loads"]["bearings"]["NAME"]["reliability"] == 90
+        assert read["tolerance"]["correlated"] == [{"sources": None, "rho": None}]
 
 
 def test_an_existing_file_is_kept_without_force(gearlink: Any, tmp_path: Path) -> None:
@@ -191,7 +203,7 @@ def test_the_first_slider_crank_asks_for_its_crank() -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_range_names_one_bound_on_a_side_and_no_alternative_twice(kind: str) -> None:
-    for key in spec_keys(KINDS[kind]):
+    for key in spec_keys(KINDS[kind], entries=True):
         alternatives = [part.split(", ") for part in key.range.split(" or ")]
         assert len(set(map(tuple, alternatives))) == len(alternatives), key
         for bounds in alternatives:
