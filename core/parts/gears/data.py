@@ -20,6 +20,7 @@ from gearlink.core.parts.gears.tooth.tools import RackTool
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.measures.allowances import Backlash
+    from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
     from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
     from gearlink.core.parts.gears.rating.conditions import Conditions
     from gearlink.core.parts.gears.rating.rated import Rated
@@ -266,6 +267,30 @@ class GearData:
         from gearlink.core.parts.gears.rating.rated import Rated
 
         return Rated(data=self, conditions=self.conditions, load=self.load, given=self.load.given)
+
+    @property
+    def tolerances(self) -> tuple[ToothTolerances, ToothTolerances] | None:
+        """Of ISO 1328-1, of the rating's grade and edition or of `accuracy_grade` by that of 2013.
+
+        None without a grade or a width, or outside of the standard's range.
+        """
+        if self.rated is not None:
+            return self.rated.bodies.tolerances
+        if self.accuracy_grade is None or self.face_width is None:
+            return None
+        from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
+
+        sizes = zip(self.pair.reference_radius, self.face_width, strict=True)
+        try:
+            one, other = (
+                ToothTolerances(
+                    grade=self.accuracy_grade, module=self.pair.module, diameter=2.0 * abs(radius), width=width
+                )
+                for radius, width in sizes
+            )
+        except NoSolution:
+            return None
+        return one, other
 
     @property
     def factors(self) -> Factors:

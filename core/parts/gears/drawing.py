@@ -10,6 +10,7 @@ from gearlink.core.base.report import Table
 from gearlink.core.parts.gears.data import GearData
 
 if TYPE_CHECKING:
+    from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
     from gearlink.core.parts.gears.rack import RackMesh
 
 Row = tuple[str, str, Any, Any, str]
@@ -102,21 +103,13 @@ def _rows(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:
 
 def _strength(data: GearData) -> Iterator[Row]:
     """Grade and tolerances, material, and the safeties; where the file has `rating`."""
-    rated = data.rated
+    rated, tolerances = data.rated, data.tolerances
+    if tolerances is not None:
+        yield from _tolerances(*tolerances)
+    elif data.accuracy_grade is not None:
+        yield "accuracy grade, ISO 1328-1", "", data.accuracy_grade, data.accuracy_grade, ""
     if rated is None:
-        if data.accuracy_grade is not None:
-            yield "accuracy grade, ISO 1328-1", "", data.accuracy_grade, data.accuracy_grade, ""
         return
-    one, other = rated.bodies.tolerances
-    yield f"accuracy grade, ISO 1328-1:{rated.conditions.edition}", "", *rated.conditions.grades, ""
-    for words, symbol, values in (
-        ("single pitch deviation", "f_pt", (one.single_pitch, other.single_pitch)),
-        ("cumulative pitch deviation", "F_p", (one.cumulative_pitch, other.cumulative_pitch)),
-        ("total profile deviation", "F_alpha", (one.profile_total, other.profile_total)),
-        ("total helix deviation", "F_beta", (one.helix_total, other.helix_total)),
-        ("runout", "F_r", (one.runout, other.runout)),
-    ):
-        yield words, symbol, *values, "um"
     steels = rated.steels
     yield "material", "", steels[0].name, steels[1].name, ""
     for words, symbol, hardness in (("hardness", "HV", False), ("hardness", "HBW", True)):
@@ -125,6 +118,19 @@ def _strength(data: GearData) -> Iterator[Row]:
     yield "roughness of the flanks", "Rz", *rated.conditions.flank_roughness, "um"
     yield "safety against pitting", "S_H", *(rated.safety_pitting), ""
     yield "safety against breaking at the root", "S_F", *(rated.safety_bending), ""
+
+
+def _tolerances(one: ToothTolerances, other: ToothTolerances) -> Iterator[Row]:
+    """Those of the flanks."""
+    yield f"accuracy grade, ISO 1328-1:{one.edition}", "", one.grade, other.grade, ""
+    for words, symbol, values in (
+        ("single pitch deviation", "f_pt", (one.single_pitch, other.single_pitch)),
+        ("cumulative pitch deviation", "F_p", (one.cumulative_pitch, other.cumulative_pitch)),
+        ("total profile deviation", "F_alpha", (one.profile_total, other.profile_total)),
+        ("total helix deviation", "F_beta", (one.helix_total, other.helix_total)),
+        ("runout", "F_r", (one.runout, other.runout)),
+    ):
+        yield words, symbol, *values, "um"
 
 
 def _teeth(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:

@@ -91,3 +91,24 @@ def test_a_load_without_a_width_is_not_left_without_a_word(teeth: list[Any]) -> 
     assert [(check.code, check.status) for check in said] == [("GL211", "warn")]
     wide = design(known | {"face_width": 20}, command="gear").check("bending")
     assert not [check for check in wide if "face_width" in check.message]
+
+
+@pytest.mark.parametrize(("given", "lines"), [
+    ({"accuracy_grade": 6, "face_width": [25, 24]}, True),
+    ({"accuracy_grade": 6}, False),
+    ({"accuracy_grade": 6, "face_width": [25, 3]}, False),  # the standard begins at 4 mm
+    ({"face_width": 25}, None),
+])  # fmt: skip
+def test_a_grade_alone_has_its_tolerances(given: dict[str, Any], lines: bool | None) -> None:
+    """By formulas of ISO 1328-1:2013 for d = 60, b = 25 mm: f_pt = sqrt(2) (0.06 + 1.2 + 5), rounded to 0.5 um."""
+    table = design(GEAR | {"face_width": None, "helix_angle": 0, "teeth": [20, 40], "profile_shift": [0, 0]} | given,
+                   command="gear").table("drawing")  # fmt: skip
+    found = {item: (one, other) for item, one, other in zip(table.data[0], table.data[2], table.data[3], strict=True)}
+    assert (found.get("accuracy grade, ISO 1328-1:2013") == (6, 6)) is bool(lines)
+    assert ("accuracy grade, ISO 1328-1" in found) is (lines is False)
+    assert ("single pitch deviation" in found) is bool(lines)
+    if lines:
+        assert found["single pitch deviation"] == (9.0, 9.0)
+        slope, form = 0.05 * math.sqrt(60) + 0.35 * 5 + 4, 0.07 * math.sqrt(60) + 0.45 * 5 + 4
+        assert found["total helix deviation"][0] == round(math.sqrt(2) * math.hypot(slope, form))
+        assert found["runout"][0] == round(0.9 * math.sqrt(2) * (0.12 + 0.55 * math.sqrt(60) + 2.1 + 12))
