@@ -18,6 +18,7 @@ from gearlink.core.base.errors import MissingSection, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.dual import Chain, Dual, Shift
 from gearlink.core.mechanism.joints import Contact, Flank, Pin, SharedContact, Toothed
@@ -813,7 +814,7 @@ class MotionRegister(RegisterDesign):
         if self.section.cam_error is not None:
             found += [gains.profile(roller, self.section.cam_error) for roller in self._rollers]
         if self.section.stiffness is not None and self._carries:
-            lag = -self.radius * self.output_torque(input_angle) / self.section.stiffness
+            lag = -self.radius * self.output_torque(input_angle) / torsional_stiffness(self.section.stiffness)
             found.append(Contribution("wind-up of the output shaft", lag, 1.0, 0.0, mean=1.0))
         return found
 

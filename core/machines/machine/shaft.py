@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ class Chain:
         square = ratios**2
         return cls(
             np.array(shaft.inertias) * square,
-            np.array(shaft.stiffnesses) * square[:-1],
+            np.array([torsional_stiffness(each) for each in shaft.stiffnesses]) * square[:-1],
             shaft.fixed,
             ASSUMED_DAMPING if shaft.damping is None else shaft.damping,
         )

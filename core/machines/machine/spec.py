@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec import Deferred, DesignSpec, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
 from gearlink.core.base.spec_paths import put
+from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.machine.relations import NotARelation, Relation, parse
 
@@ -165,9 +166,11 @@ class MainShaft(Spec):
     inertias: Annotated[list[Inertia], Field(min_length=2, max_length=200), Entries("one of each disc")] = Field(
         description="moments of inertia of the discs, with what they drive"
     )
-    stiffnesses: Annotated[list[Stiffness], Field(min_length=1, max_length=199), Entries("between neighbours")] = Field(
-        description="stiffness between neighbours, at the shaft of the first of both; through a mesh that of the teeth "
-        "times the square of its base radius"
+    stiffnesses: Annotated[
+        list[Stiffness | OfShaft], Field(min_length=1, max_length=199), Entries("between neighbours")
+    ] = Field(
+        description="stiffness between neighbours, at the shaft of the first of both, or the sizes of that shaft; "
+        "through a mesh that of the teeth times the square of its base radius"
     )
     members: Annotated[list[str | list[str]], Field(max_length=200)] | None = Field(
         None, description="names of the discs, of a disc with several members a list; other members act on the first"

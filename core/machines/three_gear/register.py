@@ -20,6 +20,7 @@ from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
+from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.machines.three_gear import motion, sweep
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.dwell import STANDSTILL_TOLERANCE, ByRoots
@@ -763,7 +764,7 @@ class ThreeGearRegister(RegisterDesign):
         assert self.section.stiffness is not None
         torque = np.array([self.output_torque(float(phi)) for phi in input_angle])
         counted = self._ahead.sense * self.design.train.sense
-        gain = -counted * self.radius * torque / self.section.stiffness
+        gain = -counted * self.radius * torque / torsional_stiffness(self.section.stiffness)
         return Contribution("wind-up of the output shaft", gain, 1.0, 0.0, mean=1.0)
 
     # Torque and backlash

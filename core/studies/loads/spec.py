@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec
+from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import unlike
 
 Kilograms = Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "kg"})]
@@ -254,8 +255,9 @@ class Vibration(Spec):
     frequency: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})] | None = Field(
         None, description="natural frequency"
     )
-    stiffness: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="instead of frequency: of the output shaft (N m/rad) or of the slider's drive (N/mm)"
+    stiffness: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "1"})] | OfShaft | None = Field(
+        None,
+        description="instead of frequency: of the output shaft (N m/rad or its sizes) or a slider's drive (N/mm)",
     )
     damping: Coefficient | None = Field(None, description="damping ratio; default: 0.03, assumed")
     allowed_residual: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(

@@ -17,6 +17,7 @@ import numpy as np
 
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.mechanism.rates import dot
 from gearlink.core.numerics.arrays import Points, Reals, distinct
 from gearlink.core.numerics.extremes import extremes_over
@@ -348,7 +349,13 @@ class Vibrating:
         if given == "frequency":
             frequency = 2.0 * math.pi * self.section.frequency
         else:
-            frequency = math.sqrt(self.section.stiffness * (1e3 if self.slides else 1.0) / self.inertia)
+            stiffness = torsional_stiffness(self.section.stiffness)
+            if self.slides and not isinstance(self.section.stiffness, float):
+                message = f"the output {self.design.output} slides: the sizes of a shaft tell nothing of its drive"
+                raise NoSolution(
+                    message, key="loads.vibration.stiffness", fix="give the stiffness in N/mm, or frequency"
+                )
+            frequency = math.sqrt(stiffness * (1e3 if self.slides else 1.0) / self.inertia)
         frequency = bounded(frequency, self.design.speed, f"loads.vibration.{given}")
         return Oscillator(frequency, damping)
 

@@ -9,6 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec import Angle, Distance, Length, Spec, also
+from gearlink.core.base.torsion import OfShaft
 
 _SIZES = (
     "plus_minus",
@@ -223,8 +224,8 @@ class Register(Spec):
     )
     friction: Annotated[Torque, Field(ge=0)] = Field(0.0, description="friction torque on the output")
     load: Torque = Field(0.0, description="torque that the machine takes from the output")
-    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m/rad"})] | None = Field(
-        None, description="of the output shaft; default: rigid"
+    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m/rad"})] | OfShaft | None = Field(
+        None, description="of the output shaft, or its sizes; default: rigid"
     )
 
     def backlash_of(self, meshes: tuple[str, ...]) -> dict[str, float]:
