@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, listed
-from gearlink.cli.texts.schema import index, inner_keys, kind_schema, known_keys, spec_keys
+from gearlink.cli.texts.schema import InnerKey, index, inner_keys, kind_schema, known_keys, spec_keys
 from gearlink.core.base.errors import named
 from gearlink.core.base.nearest import near_names
 
@@ -167,15 +167,26 @@ def _inner(subject: str) -> Iterator[Topic]:
 
     asked = spelled(subject)
     for key in inner_keys():
-        told = {"Unit": key.unit, "Values": ", ".join(key.choices), "Kinds": ", ".join(key.kinds)}
-        told = {label: words for label, words in told.items() if words}
         last = key.path.rpartition(".")[2]
         if asked in (spelled(last), spelled(key.path)):
-            yield Topic("key", key.path, f"key of a design file: {key.words or 'says what its section is'}", told)
+            yield _inner_key(key)
         elif taken := [each for each in key.choices if spelled(each) == asked]:
-            yield Topic(
-                "value", taken[0], f"value of the key {key.path}" + (f": {key.words}" if key.words else ""), told
-            )
+            title = f"value of the key {key.path}" + (f": {key.words}" if key.words else "")
+            yield Topic("value", taken[0], title, _inner_key(key).paragraphs)
+
+
+def _inner_key(key: InnerKey) -> Topic:
+    told = {"Unit": key.unit, "Values": ", ".join(key.choices), "Kinds": ", ".join(key.kinds)}
+    title = f"key of a design file: {key.words or 'says what its section is'}"
+    return Topic("key", key.path, title, {label: words for label, words in told.items() if words})
+
+
+def _of_entries(path: str) -> Iterator[Topic]:
+    """Keys of elements and of named entries by a path of a file, loads.bearings.C.kind or motion[1].law."""
+    plain = re.sub(r"\[\d*\]", "[]", path)
+    for key in inner_keys():
+        if re.fullmatch(re.escape(key.path).replace("NAME", ".+"), plain) and key.path != path:
+            yield _inner_key(key)
 
 
 def mentioned(subject: str, most: int = 4) -> list[str]:
@@ -287,6 +298,8 @@ def _keys(name: str) -> Iterator[Topic]:
         told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in the file"}
         title = f"key of a design file: {words or 'a section'}"
         yield Topic("key", key.path, title, {k: v for k, v in told.items() if v})
+    if "." in name:
+        yield from _of_entries(name)
 
 
 def names() -> tuple[str, ...]:

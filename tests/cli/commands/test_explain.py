@@ -242,6 +242,23 @@ def test_a_key_says_unit_range_choice_and_kinds(gearlink: Any) -> None:
     assert topic["kinds"] == "flatbed-press"
 
 
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(
+    ("path", "key"),
+    [
+        ("loads.bearings.C.reliability", "loads.bearings.NAME.reliability"),
+        ("loads.bearings.C.life", "loads.bearings.NAME.life"),  # and not the quantity first
+        ("motion[1].lift", "motion[].lift"),
+        ("shaft.stiffnesses[1].diameter", "shaft.stiffnesses[].diameter"),
+        ("tolerance.sources.links.crank.plus_minus", "tolerance.sources.NAME.plus_minus"),
+        ("loads.forces[0].torque.zones[2].from", "loads.forces[].torque.zones[].from"),
+    ],
+)
+def test_a_path_as_it_stands_in_a_file_leads_to_its_key(gearlink: Any, path: str, key: str) -> None:
+    topics = gearlink("explain", path, "--format", "json").json["topics"]
+    assert (topics[0]["about"], topics[0]["name"]) == ("key", key)
+
+
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("wrong", "near"), [("cam.leadin", "cam.lead_in"), ("phi31", "phi13"), ("lead-in_", "lead_in")]
