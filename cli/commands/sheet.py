@@ -219,7 +219,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         if name not in _ALIKE and place:
             found[name] = lambda place=place: load(place)(design)  # type: ignore[misc]
     cams = cam_sheets.discs(design)
-    if cams and "pressure" in KINDS[design.kind].sheets and cams[0].roller_radius:
+    if cams and "pressure" in KINDS[design.kind].sheets and cam_sheets.touching(cams[0]) != "face":
         found["pressure"] = lambda: cam_sheets.pressure(design)
         found["contact"] = lambda: motion_sheet.contact(design)
     if scale is not None and not cams:

@@ -117,7 +117,7 @@ def follower_cam(design: Any) -> Makers:
         found["return_cam"] = lambda: disc_cam("return_cam", cams.back)
     if cutter is not None:
         path = replace(cams.main, name="cutter path", roller_radius=cams.main.roller_radius - cutter)
-        words = f"path of a cutter of radius {cutter:.9g} mm; roller radius {cams.main.roller_radius:.9g} mm"
+        words = f"path of a cutter of radius {cutter:.9g} mm; {_touching(cams.main)}"
         found["cutter"] = lambda: disc_cam("cutter", path, words)
     return found
 
@@ -724,6 +724,11 @@ def _stretch(name: str, curve: Curve, low: float, high: float) -> Stretch:
     return Stretch(("PROFILE",), points, low, high, name, steps=1)
 
 
+def _touching(cam: DiscCam) -> str:
+    """What touches a cam."""
+    return f"roller radius {abs(cam.roller_radius):.9g} mm" if cam.roller_radius else "knife edge"
+
+
 CAM_LAYERS = ("PROFILE", "PITCH_CURVE")
 _TURN = 2.0 * math.pi
 # A joint belongs to the stretch that begins there; so far inside [rad] each stretch is asked, 1e-10 mm of a cam.
@@ -739,7 +744,8 @@ def disc_cam(name: str, cam: DiscCam, words: str = "") -> Part:
         NoSolution - where the cam does not exist
     """
     joints = _joints(cam)
-    stretches = [_of_turn(cam, low, high) for low, high in pairwise(joints)]
+    layers = CAM_LAYERS if cam.roller_radius or words else CAM_LAYERS[:1]  # an edge goes along the profile
+    stretches = [_of_turn(cam, layers, low, high) for low, high in pairwise(joints)]
     rounded = []
     for stretch, following in zip(stretches, [*stretches[1:], stretches[0]], strict=True):
         rounded += [stretch, *_round_corner(cam, stretch, following)]
@@ -753,8 +759,7 @@ def disc_cam(name: str, cam: DiscCam, words: str = "") -> Part:
         closed=True,
         circles=(Circle("BASE_CIRCLE", cam.min_radius),) if cam.min_radius > 0.0 else (),  # else the roller covers it
         notes=(
-            f"{words or f'roller radius {abs(cam.roller_radius):.9g} mm'}, "
-            f"cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
+            f"{words or _touching(cam)}, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
             "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
             "base circle: the largest about the axis inside the profile",
         ),
@@ -806,19 +811,19 @@ def _joints(cam: DiscCam | FlatCam) -> list[float]:
     return [*apart, _TURN]
 
 
-def _of_turn(cam: DiscCam, low: float, high: float) -> Stretch:
+def _of_turn(cam: DiscCam, layers: tuple[str, ...], low: float, high: float) -> Stretch:
     def inside(theta: Reals) -> Reals:
         return np.clip(theta, low + _INSIDE if low else 0.0, high - _INSIDE)
 
     def points(theta: Reals) -> Points:
         pitch, contact = cam.points(inside(theta))
-        return np.stack([contact, pitch])
+        return np.stack([contact, pitch][: len(layers)])
 
     def extra(theta: Reals) -> Reals:
         rows = cam.at(inside(theta))
         return np.stack([np.degrees(theta), np.degrees(rows.pressure_angle), rows.curvature_radius])
 
-    return Stretch(CAM_LAYERS, points, low, high, extra=extra)
+    return Stretch(layers, points, low, high, extra=extra)
 
 
 def _round_corner(cam: DiscCam, before: Stretch, after: Stretch) -> list[Stretch]:
@@ -831,7 +836,7 @@ def _round_corner(cam: DiscCam, before: Stretch, after: Stretch) -> list[Stretch
     start, turn = cmath.phase(left[0] - center), cmath.phase((right[0] - center) / (left[0] - center))
 
     def points(way: Reals) -> Points:
-        arc: Points = center + cam.roller_radius * np.exp(1j * (start + turn * way))
+        arc: Points = center + abs(cam.roller_radius) * np.exp(1j * (start + turn * way))
         return arc[None, :]
 
     def extra(way: Reals) -> Reals:

@@ -330,7 +330,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "disc-cam",
-            "disc cam with a translating or oscillating follower, roller or flat",
+            "disc cam with a translating or oscillating follower: roller, knife edge or flat",
             "machines.disc_cam",
             "spec:DiscCamSpec",
             {

@@ -358,7 +358,7 @@ GEAR_PAIR = {
     "base_radius": Term(
         "r_b",
         "mm",
-        "radius of the base circle, of involutes or of a flat-faced cam",
+        "radius of the base circle, of involutes or of a cam",
         "ISO 21771",
     ),
     "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),
@@ -559,7 +559,11 @@ _CAM = {
         "alpha_max", "deg", "maximum pressure angle of the main cam (a list: main, return cam)", "VDI 2142"
     ),
     "min_curvature_radius": Term(
-        "rho_min", "mm", "minimum convex radius of the main cam's pitch curve (a list: main, return cam)", "VDI 2142"
+        "rho_min",
+        "mm",
+        "minimum convex radius of the main cam's pitch curve, under a face or an edge of its profile (a list: main, return "
+        "cam)",
+        "VDI 2142",
     ),
     "max_radius": Term("r_max", "mm", "largest radius of the main cam (a list: main, return cam)"),
     "min_radius": Term("r_min", "mm", "smallest radius of the main cam (a list: main, return cam)"),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
-from gearlink.cli.views.figures.sheets.cam_sheets import follower_discs
+from gearlink.cli.views.figures.sheets.cam_sheets import away, edge_outline, follower_discs
 from gearlink.cli.views.scenes import of_motion
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Mark, Part, Points, Reals, Scene, pale, track, wheel
 
@@ -45,6 +45,8 @@ def build(design: DiscCamDesign, fraction: Reals) -> Scene:
     """Positions over fractions of a revolution of the cam."""
     scene = of_motion.build(design, fraction)
     links = [part for part in scene.parts if getattr(part, "name", "") != "main"]  # the contact is no slot
+    if not (design.spec.oscillates or design.spec.rolls):
+        links = [_on_rod(design, part) if isinstance(part, Body) else part for part in links]
     return replace(scene, parts=(*_cams(design, fraction), *links, *_followers(design, fraction)))
 
 
@@ -65,6 +67,10 @@ def _followers(design: DiscCamDesign, fraction: Reals) -> list[Part]:
     if design.spec.is_flat:
         return _face(design, phi)
     front = cams.main.path(phi, 1).position
+    if design.spec.is_edge:
+        outline, off = edge_outline(cams.main), away(cams.main, phi)
+        edge = Body(outline=outline, place=front, turn=np.angle(off), color=style.BLUE, fill=pale(style.BLUE, 0.3))
+        return [*_stem(design, front + outline[1].real * off), edge]
     found: list[Part] = [*_stem(design, front)]
     if cams.back is not None:
         held = track(cams.pivot, fraction) if design.spec.oscillates else front
@@ -97,6 +103,11 @@ def _stem(design: DiscCamDesign, start: Points) -> list[Part]:
     if design.spec.oscillates:
         return []
     return [Chain(joints=(start, start + _STEM * design.cams.place.radius * design.cams.direction), marked=False)]
+
+
+def _on_rod(design: DiscCamDesign, block: Body) -> Body:
+    """The block of the guide on the middle of the rod, where no cam is: a face or an edge has its origin on the cam."""
+    return replace(block, place=block.place + 0.5 * _STEM * design.cams.place.radius * design.cams.direction)
 
 
 _DRUM_STEM = 3.0
@@ -139,22 +150,25 @@ def draw_disc(command: str, design: DiscCamDesign) -> Figure:
     rates = design.cams.motion.evaluate(phi, 3)
     rates[:] = [np.where(phi == phi[-1], design.cams.motion.evaluate(phi, 3, side=-1)[n], rates[n]) for n in range(4)]
     _motion(rows, phi, rates, "rad" if design.spec.oscillates else "mm")
-    if flat:
-        _cut_by_face(outline, design)
-    else:
+    if design.spec.rolls:
         _pitch_curves(outline, design)
+    else:
+        _too_sharp(outline, design)
+    if not flat:
         _pressure(rows[-1], design)
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
 
 
-def _cut_by_face(axes: Axes, design: DiscCamDesign) -> None:
-    """In red, where the profile under a flat face is more sharply curved than its limit."""
-    flat = design.cams.flat
-    (check,) = design.check_cam_undercut()
-    lost = flat.touch(_CLOSE).radius < (check.limit or 0.0)
+def _too_sharp(axes: Axes, design: DiscCamDesign) -> None:
+    """In red, where a profile under a flat face or an edge is more sharply curved than its limit."""
+    cams, limit = design.cams, design.spec.limits.curvature_radius
+    if design.spec.is_flat:
+        profile, lost = cams.flat.points(_CLOSE)[0], cams.flat.touch(_CLOSE).radius < limit
+    else:
+        profile, lost = cams.main.points(_CLOSE)[1], limit * cams.main.curvature(_CLOSE) > 1.0
     if lost.any():
-        where = flat.points(_CLOSE)[0] * np.exp(1j * design.spec.cam.sense * _TURN * _SHOWN)
+        where = profile * np.exp(1j * design.spec.cam.sense * _TURN * _SHOWN)
         failing.past(axes, where.real, where.imag, lost, "radius below its limit")
         panels.legend_above(axes, 1)
 

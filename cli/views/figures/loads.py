@@ -53,7 +53,7 @@ def _rollers(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> N
     x = np.arange(table.length) * (_TURN * design.turns / table.length)
     for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         values = table[f"{name}_{column}"]
-        axes.plot(x, values, color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
+        axes.plot(x, values, color=color, linestyle=line, linewidth=1.4, label=design.called(name))
         if column == "pressure":
             _too_much(axes, design, x, values)
 

@@ -1,1 +1,1 @@
-"""A disc cam with a translating or oscillating follower, roller or flat; begin with `spec` and `design`."""
+"""A disc cam with a translating or oscillating follower, roller, edge or flat; begin with `spec` and `design`."""

@@ -18,13 +18,13 @@ from gearlink.core.machines.disc_cam.spec import (
     ROLLER_SHARE,
     CamBody,
     DiscCamSpec,
+    OnRocker,
+    OnSlide,
     OscillatingFlat,
-    OscillatingRoller,
     ReturnRoller,
-    TranslatingRoller,
 )
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
-from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
 from gearlink.core.parts.cams import profile
 from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
 from gearlink.core.parts.cams.flat_cam import FlatCam, rocking_face, sliding_face
@@ -108,7 +108,8 @@ class FollowerCams:
         assert size is not None, "needed with a size alone"
         if size.curvature_radius is not None:
             return size.curvature_radius
-        return (self.follower.roller_radius if roller_radius is None else roller_radius) / ROLLER_SHARE
+        own: float = getattr(self.follower, "roller_radius", 0.0)
+        return (own if roller_radius is None else roller_radius) / ROLLER_SHARE
 
     @cached_property
     def _returning(self) -> FollowerMotion:
@@ -144,14 +145,14 @@ class FollowerCams:
 
     def _sliding_place(self) -> Place:
         follower, cam = self.follower, self.spec.cam
-        if not isinstance(follower, TranslatingRoller):
+        if not isinstance(follower, OnSlide):
             radius = cam.base_radius or flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
                 message = f"minimum base radius: {short(radius)} mm, the curvature sets none\ngive cam.base_radius"
                 raise NoSolution(message, key="cam.size")
             return Place(radius)
-        if cam.prime_radius is not None:
-            return Place(cam.prime_radius, float(follower.offset))
+        if cam.radius is not None:
+            return Place(cam.radius, float(follower.offset))
         lines = wedge(self.motion, self.limits, self.sense)
         roller, whole = self.spec.return_roller, sum(self.lifts)
         back: list[Line] = []
@@ -164,17 +165,18 @@ class FollowerCams:
         both = [*lines, *back] if equal else lines
         offset = nearest(both).offset if follower.offset == "best" else float(follower.offset)
         height = height_at(both, offset)
-        height = max(height, height_for_curvature(self.motion, self._least_radius(), offset, self.sense))
+        if curved := self._least_radius():
+            height = max(height, height_for_curvature(self.motion, curved, offset, self.sense))
         if roller is not None:
             least = self._least_radius(roller.radius)
-            curved = height_for_curvature(self._returning, least, -offset, self.sense) - whole
+            lowest = height_for_curvature(self._returning, least, -offset, self.sense) - whole
             if equal:
-                height = max(height, curved)
+                height = max(height, lowest)
             else:
-                self._require_distance(height + max(curved, height_at(back, offset)) + whole)
+                self._require_distance(height + max(lowest, height_at(back, offset)) + whole)
         if height + self.lifts[0] <= 0.0:
             message = "these limits require no cam, the motion being so slow"
-            raise NoSolution(message, key="cam.size", fix="give cam.prime_radius")
+            raise NoSolution(message, key="cam.size", fix=f"give {self.spec.radius_key}")
         return Place(math.hypot(offset, height), offset)
 
     def _require_distance(self, least: float) -> None:
@@ -191,11 +193,11 @@ class FollowerCams:
         follower, cam = self.follower, self.spec.cam
         if isinstance(follower, OscillatingFlat):
             return self._rocking_face_place(follower)
-        assert isinstance(follower, OscillatingRoller), "no other follower rocks"
+        assert isinstance(follower, OnRocker), "no other follower rocks"
         if follower.center_distance is None:
             return self._found_pivot(follower)
-        if cam.prime_radius is not None:
-            return self._triangle(follower.arm, follower.center_distance, cam.prime_radius)
+        if cam.radius is not None:
+            return self._triangle(follower.arm, follower.center_distance, cam.radius)
         rocker = Rocking(self.motion, follower.arm, follower.center_distance, self.sense, follower.side)
         low, high = rocker.start_angles(self.limits)
         roller = self.spec.return_roller
@@ -221,12 +223,10 @@ class FollowerCams:
         if not -1.0 < share < 1.0:
             bound, sign = (abs(distance - arm), ">") if share > 0.0 else (distance + arm, "<")
             limit = f"limit {sign} {unlike(bound, radius)} mm; arm {arm:g} mm, center_distance {distance:g} mm"
-            message = f"prime_radius: {unlike(radius, bound)} mm ({limit})"
-            raise NoSolution(
-                message,
-                key="cam.prime_radius",
-                fix=f"set cam.prime_radius from {within(abs(distance - arm), distance + arm, 'mm')}",
-            )
+            key = self.spec.radius_key
+            message = f"{key.removeprefix('cam.')}: {unlike(radius, bound)} mm ({limit})"
+            reach = within(abs(distance - arm), distance + arm, "mm")
+            raise NoSolution(message, key=key, fix=f"set {key} from {reach}")
         return Place(radius, 0.0, distance, math.acos(share))
 
     def _angles_of_return(self, roller: ReturnRoller, distance: float) -> tuple[float, float]:
@@ -257,7 +257,7 @@ class FollowerCams:
             for path, least in found
         )
 
-    def _found_pivot(self, follower: OscillatingRoller) -> Place:
+    def _found_pivot(self, follower: OnRocker) -> Place:
         """The pivot of the smallest cam."""
 
         def law(phi: Reals, ahead: float = 0.0) -> tuple[Reals, Reals]:
@@ -321,7 +321,7 @@ class FollowerCams:
 
     @cached_property
     def start_height(self) -> float:
-        """y_0 of a translating roller [mm]."""
+        """y_0 of a translating roller or edge [mm]."""
         radius, offset = self.place.radius, self.place.offset
         height: float = ((radius - offset) * (radius + offset)) ** 0.5
         return height
@@ -377,10 +377,10 @@ class FollowerCams:
 
     @cached_property
     def main(self) -> DiscCam:
-        """The cam of the roller."""
+        """The cam of the roller, or of an edge, which is one of radius 0."""
         path = self._rocking_path(self.place) if self.spec.oscillates else self._sliding_path()
-        key = "cam" if self.spec.cam.prime_radius is None else "cam.prime_radius"
-        radius = self.follower.roller_radius
+        key = "cam" if self.spec.cam.radius is None else self.spec.radius_key
+        radius = getattr(self.follower, "roller_radius", 0.0)
         return DiscCam("main cam", path, self.sense, radius, self.motion.joints, key)
 
     @cached_property
@@ -413,8 +413,24 @@ class FollowerCams:
         """Minimum hollow radius of the main cam's profile [mm] and its cam angle [rad]; None where it is convex."""
         return self.hollow_of(self.main)
 
+    @cached_property
+    def sharpest(self) -> Extreme:
+        """Minimum convex radius of the profile under an edge [mm] and its cam angle [rad]; 0 at a corner.
+
+        Such a profile never crosses itself: an edge that does not pass the relative pole meets each point of the cam in
+        one place alone, at the distance of the point from the axis.
+        """
+        outward = max(self.main.corners, default=Extreme(0.0, 0.0))
+        return outward._replace(value=0.0) if outward.value > 0.0 else self.main.min_curvature_radius
+
     def hollow_of(self, cam: DiscCam) -> tuple[float, float] | None:
-        """Minimum hollow radius of a cam's profile, 1/max(-kappa) + r_g [mm], and its cam angle [rad]."""
+        """Minimum hollow radius of a cam's profile, 1/max(-kappa) + r_g [mm], and its cam angle [rad].
+
+        A hollow corner of the pitch curve leaves the roller's own radius in the profile.
+        """
+        inward = min(cam.corners, default=Extreme(0.0, 0.0))
+        if inward.value < 0.0:
+            return cam.roller_radius, inward.place
         lowest = cam.most_hollow
         if lowest.value >= -1e-12 / self.place.radius:
             return None

@@ -18,7 +18,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Making, Place
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, maximum_over
-from gearlink.core.parts.cams.checks import flat_undercut_check, hub_checks, undercut_checks
+from gearlink.core.parts.cams.checks import edge_check, flat_undercut_check, hub_checks, undercut_checks
 from gearlink.core.parts.cams.codes import (
     CONSTANT_SUM,
     CUTTER_RADIUS,
@@ -106,6 +106,7 @@ class DiscCamDesign(OfFollower, Design):
         (
             "lift_max",
             "prime_radius",
+            ("?base_radius", "?.sized_base_radius"),
             ("max_pressure_angle", "<limits.pressure_angle", "<cam.size.pressure_angle"),
             "min_curvature_radius",
             "max_radius",
@@ -174,7 +175,7 @@ class DiscCamDesign(OfFollower, Design):
             return
         place = self.cams.place
         yield Found("cam.size", None)
-        yield Found("cam.base_radius" if self.spec.is_flat else "cam.prime_radius", place.radius, "found for cam.size")
+        yield Found(self.spec.radius_key, place.radius, "found for cam.size")
         if getattr(follower, "offset", None) == "best":
             yield Found("follower.offset", place.offset, "found for cam.size")
         if self.spec.oscillates and getattr(follower, "center_distance", None) is None:
@@ -200,8 +201,8 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def prime_radius(self) -> float | None:
-        """Cam axis to roller centre at lift 0 [mm]; None of a flat face."""
-        return None if self.spec.is_flat else self.cams.place.radius
+        """Cam axis to roller centre at lift 0 [mm]; None of a face or an edge."""
+        return self.cams.place.radius if self.spec.rolls else None
 
     @property
     def base_radius(self) -> float:
@@ -209,9 +210,14 @@ class DiscCamDesign(OfFollower, Design):
         return self.cams.place.radius - getattr(self.spec.follower, "roller_radius", 0.0)
 
     @property
+    def sized_base_radius(self) -> float | None:
+        """That radius where it was found for a face or an edge [mm]."""
+        return None if self.spec.rolls or self.spec.cam.size is None else self.base_radius
+
+    @property
     def offset(self) -> float | None:
-        """Offset of a translating roller [mm]."""
-        return self.cams.place.offset if self.spec.follower.type == "translating-roller" else None
+        """Offset of a translating roller or edge [mm]."""
+        return self.cams.place.offset if hasattr(self.spec.follower, "offset") else None
 
     @property
     def start_angle(self) -> float | None:
@@ -263,7 +269,9 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def min_curvature_radius(self) -> Any:
-        """Minimum convex radius of the pitch curve (flat: of the profile) [mm]."""
+        """Minimum convex radius of the pitch curve (of a face or an edge: of the profile) [mm]."""
+        if self.spec.is_edge:
+            return self.cams.sharpest.value
         return self._one_or_both([cam.min_curvature_radius.value for cam in self.profiles])
 
     @property
@@ -379,34 +387,34 @@ class DiscCamDesign(OfFollower, Design):
         yield PRESSURE_ANGLE.check(status, f"pressure angle of the {stroke}", value, limit, "deg", fix=_LARGER)
 
     def check_cam_undercut(self) -> Iterator[Check]:
-        """GL402: roller against the pitch curve, or the profile under a flat face."""
-        if not self.spec.is_flat:
+        """GL402: roller against the pitch curve, or the profile under a flat face or an edge."""
+        if self.spec.rolls:
             cams = [cam for cam in (self.cams.main, self.cams.back) if cam is not None]
             yield from undercut_checks(cams, plainly=_LARGER)
             return
         limit = self.spec.limits.curvature_radius
-        size = self.spec.cam.size
-        if size is not None and size.curvature_radius is not None and "curvature_radius" not in _given(self):
-            limit = 0.0
-        yield flat_undercut_check(self.cams.flat, limit, "raise cam.base_radius by {} mm")
+        if self.spec.is_flat:
+            yield flat_undercut_check(self.cams.flat, limit, "raise cam.base_radius by {} mm")
+        else:
+            yield edge_check(self.cams.sharpest, limit, _LARGER)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the profile against its shaft."""
 
         spec = self.spec
-        key, radius = ("base_radius", self.base_radius) if spec.is_flat else ("prime_radius", self.prime_radius or 0.0)
+        radius = self.cams.place.radius
 
         def farther(by: float) -> str:
             larger = safely_above(radius + by)
             if spec.cam.size is None:
-                return f"set cam.{key} to {larger}"
+                return f"set {spec.radius_key} to {larger}"
             center, given = self.center_distance, getattr(spec.follower, "center_distance", None)
             pivot = (
                 ""
                 if given is not None or center is None
                 else f", with follower.center_distance: {safely_above(center)}"
             )
-            return f"replace cam.size by cam.{key}: {larger}{pivot}"
+            return f"replace cam.size by {spec.radius_key}: {larger}{pivot}"
 
         yield from hub_checks(SHAFT_CLEARANCE, self.profiles, self.spec.cam.shaft_radius, farther)
 
@@ -665,10 +673,6 @@ class Closing:
 _FIT = 1e-9  # deg: a cam that is sized lies on its limit
 _RESERVE = 1.1
 _LARGER = "enlarge the cam, or give the motion more cam angle"
-
-
-def _given(design: DiscCamDesign) -> set[str]:
-    return set(design.spec.limits.model_fields_set)
 
 
 _ALIKE = ("motion", "initial_lift", "speed", "loads", "direction", "pivot_direction", "side", "sense", "type", "angle")

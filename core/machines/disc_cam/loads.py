@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.spec import CamLoads
@@ -137,7 +137,7 @@ class FollowerCamLoads(_Loads):
         """None: the pressure angle of the cam stands instead."""
         return None
 
-    # Rollers, and the flat face
+    # Rollers, and what does not roll
 
     @cached_property
     def own_rollers(self) -> tuple[str, ...]:
@@ -166,14 +166,22 @@ class FollowerCamLoads(_Loads):
             return super().side_remedy
         return f"{self.closing_remedy}, which holds the roller on one wall"
 
+    def called(self, name: str) -> str:
+        """A roller, a flat face or a knife edge."""
+        return super().called(name) if self.spec.rolls else "flat face" if self.spec.is_flat else "knife edge"
+
     def _cam(self, name: str) -> DiscCam:
         back = self.design.cams.back
         return back if name == "return" and back is not None else self.design.cams.main
 
     def roller_at(self, name: str, phi: Reals) -> Any:
-        """A roller from the cam axis; a flat face gives what its contact has."""
+        """A roller from the cam axis; a flat face and an edge give what their contact has."""
         if self.spec.is_flat:
-            return FaceOnCam(self, phi)
+            touch = self.design.cams.flat.touch(phi)
+            return SlidingOnCam(self.spec.cam.sense, touch.point, touch.normal, touch.radius)
+        if self.spec.is_edge:
+            edge = roller_on(self.design.cams.main, phi)
+            return SlidingOnCam(edge.sense, edge.position, edge.normal, np.zeros_like(phi))
         return roller_on(self._cam(name), phi)
 
     def side_force(self, phi: Reals) -> Reals:
@@ -224,25 +232,26 @@ class FollowerCamLoads(_Loads):
 
     @cached_property
     def traction_needed(self) -> list[float | None] | None:
-        """Share of the contact force that drives a roller round; None of a face."""
-        return None if self.spec.is_flat else super().traction_needed
+        """Share of the contact force that drives a roller round; None without one."""
+        return super().traction_needed if self.spec.rolls else None
 
     def wanted(self, quantity: str) -> Iterable[Wanted]:
-        """The extremes that a quantity needs; a face has no roller."""
-        return () if self.spec.is_flat and quantity in _OF_ROLLERS else super().wanted(quantity)
+        """The extremes that a quantity needs; a face and an edge have no roller."""
+        return super().wanted(quantity) if self.spec.rolls or quantity not in _OF_ROLLERS else ()
 
     def table_contact(self, samples: int | None = None) -> Table:
-        """Force, pressure and radius of the contact; of a roller its speeds as well."""
+        """Force of the contact; of a face pressure and radius as well, of a roller its speeds too."""
         found = contact_table(self, samples)
-        if not self.spec.is_flat:
+        if self.spec.rolls:
             return found
-        kept = [k for k, column in enumerate(found.columns) if column not in ("roller_speed", "entrainment")]
+        left_out = ("roller_speed", "entrainment", *(("main_pressure", "main_radius") if self.spec.is_edge else ()))
+        kept = [k for k, column in enumerate(found.columns) if column not in left_out]
         columns = {found.columns[k]: (found.data[k], found.units[k]) for k in kept}
         return Table.of("contact", columns)
 
     def raw(self, name: str) -> Any:
-        """Single numbers with one roller; a face has no roller."""
-        if self.spec.is_flat and name in _OF_ROLLERS:
+        """Single numbers with one roller; a face and an edge have none."""
+        if not self.spec.rolls and name in _OF_ROLLERS:
             return None
         found = super().raw(name)
         return found[0] if name in _EACH and isinstance(found, list) and len(found) == 1 else found
@@ -274,12 +283,10 @@ class MeasuredCamLoads(FollowerCamLoads, CamLoadsDesign):
         return self.of_file(MeasuredCamDesign)
 
 
-class FaceOnCam:
-    """The contact of a flat face in the words of a roller, as far as it has them; a face does not roll."""
+class SlidingOnCam:
+    """The contact of a face or an edge in the words of a roller, as far as it has them; neither rolls."""
 
-    def __init__(self, loads: FollowerCamLoads, phi: Reals) -> None:
-        flat = loads.design.cams.flat
-        touch, still = flat.touch(phi), 0.0 * phi
-        self.sense, self.radius = flat.sense, 0.0
-        self.position, self.normal, self.relative_radius = touch.point, touch.normal, touch.radius
-        self.roller_speed, self.roller_acceleration, self.entrainment = still, still, still
+    def __init__(self, sense: int, position: Points, normal: Points, relative_radius: Reals) -> None:
+        self.sense, self.radius = sense, 0.0
+        self.position, self.normal, self.relative_radius = position, normal, relative_radius
+        self.roller_speed = self.roller_acceleration = self.entrainment = np.zeros_like(relative_radius)

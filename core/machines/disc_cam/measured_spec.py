@@ -135,6 +135,9 @@ class MeasuredCamSpec(TolerancedSpec):
     # What a disc cam has
 
     is_flat: ClassVar[bool] = False
+    is_edge: ClassVar[bool] = False
+    rolls: ClassVar[bool] = True
+    radius_key: ClassVar[str] = "cam.prime_radius"
     return_roller: ClassVar[None] = None
     errors: ClassVar[None] = None
     servo: ClassVar[None] = None

@@ -66,7 +66,7 @@ def lift(design: DiscCamDesign) -> Course:
 
 
 def _slide(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:
-    """Origin at the roller's centre, or where the line of travel meets the face."""
+    """Origin at the roller's centre or the edge, or where the line of travel meets the face."""
     u, flat = cams.direction, cams.spec.is_flat
     start = cams.place.radius if flat else cams.start_height
     across = 0.0 if flat else -1j * cams.place.offset
@@ -76,7 +76,7 @@ def _slide(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:
 
 
 def _rocker(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:
-    """Origin at the pivot, x to the roller or along the face."""
+    """Origin at the pivot, x to the roller or the edge, or along the face."""
     turn = Turn(*cams.arm_angle(cams.place, phi, order, side))
     points = {"A": 0.0} if cams.spec.is_flat else {"A": 0.0, "B": float(cams.follower.arm)}
     return Link(fixed(cams.pivot, phi, order=order), turn, points)
@@ -96,7 +96,8 @@ def _contacts(cams: FollowerCams, phi: Reals, made: Mechanism) -> list[Contact]:
     if cams.spec.is_flat:
         touch = cams.flat.touch(phi)
         return [Contact("main", "cam", "follower", touch.point, touch.normal)]
-    roller = made.once("roller main", lambda: roller_on(cams.main, phi))
+    name = "roller main" if cams.spec.rolls else "edge"  # the loads know a roller by the first
+    roller = made.once(name, lambda: roller_on(cams.main, phi))
     back: tuple[Points, Points] | None = None
     if cams.back is not None:
         other = made.once("roller return", lambda: roller_on(cams.back, phi))  # type: ignore[arg-type]
@@ -115,7 +116,8 @@ def _phases(cams: FollowerCams) -> tuple[tuple[str, float, float], ...]:
 
 
 def errors(design: DiscCamDesign, _mechanism: Mechanism) -> Movable:
-    """The cam's profile; of a roller its radius and the play of its pin; of a rocker arm and centre distance.
+    """The cam's profile; of a roller its radius and the play of its pin; of a slide the offset, of a rocker arm and
+    centre distance, but of a face.
 
     The error of a follower that rocks is measured at its roller, or at register.radius under a face.
     """
@@ -124,7 +126,9 @@ def errors(design: DiscCamDesign, _mechanism: Mechanism) -> Movable:
     if design.spec.is_flat:
         return Movable(sizes, others={CAM_PROFILE: 0.0})
     measured = design.kind == "measured-cam"
-    sizes["roller_radius" if measured else "follower.roller_radius"] = outwards
+    rolls = design.spec.rolls
+    if rolls:
+        sizes["roller_radius" if measured else "follower.roller_radius"] = outwards
     radius = 0.0
     if design.spec.oscillates:
         radius, away = float(cams.follower.arm), cmath.phase(cams.pivot)
@@ -138,7 +142,7 @@ def errors(design: DiscCamDesign, _mechanism: Mechanism) -> Movable:
     return Movable(
         sizes,
         others={CAM_PROFILE: 0.0},
-        pins={"roller": (Shift("follower", ("main",), 1.0, "frame"),)},
-        rollers=("roller",),
+        pins={"roller": (Shift("follower", ("main",), 1.0, "frame"),)} if rolls else {},
+        rollers=("roller",) if rolls else (),
         radius=radius,
     )

@@ -46,18 +46,29 @@ class Oscillating(Spec):
     """A follower that rocks about a pivot."""
 
     pivot_direction: Angle = Field(0.0, description="direction from the cam axis to the pivot, from +x")
-    side: Assembly = Field(1, description="+1: roller or face left of the vector cam axis -> pivot; -1: right")
+    side: Assembly = Field(1, description="+1: roller, edge or face left of the vector cam axis -> pivot; -1: right")
     inertia: Inertia | None = Field(None, description="moment of inertia about the pivot, for lift-off and loads")
 
 
-class TranslatingRoller(Translating):
+class OnSlide(Translating):
+    """A roller or an edge on a slide."""
+
+    offset: SignedLength | Literal["best"] = Field(
+        0.0, description="distance of the line of travel from the cam axis on its right; best: of the smallest cam"
+    )
+
+
+class TranslatingRoller(OnSlide):
     """A roller on a slide."""
 
     type: Literal["translating-roller"] = Field(description="how the follower moves, and what touches the cam")
     roller_radius: Length = Field(description="radius of the roller")
-    offset: SignedLength | Literal["best"] = Field(
-        0.0, description="distance of the line of travel from the cam axis on its right; best: of the smallest cam"
-    )
+
+
+class TranslatingKnifeEdge(OnSlide):
+    """A knife edge on a slide."""
+
+    type: Literal["translating-knife-edge"] = Field(description="how the follower moves, and what touches the cam")
 
 
 class TranslatingFlat(Translating):
@@ -67,15 +78,26 @@ class TranslatingFlat(Translating):
     face: Reach | None = Field(None, description="reach of the face to the left and to the right of the travel")
 
 
-class OscillatingRoller(Oscillating):
+class OnRocker(Oscillating):
+    """A roller or an edge on a rocking arm."""
+
+    arm: Length = Field(description="pivot to roller centre or edge")
+    center_distance: Length | None = Field(
+        None, description="cam axis to pivot; default with cam.size: that of the smallest cam"
+    )
+
+
+class OscillatingRoller(OnRocker):
     """A roller on a rocking arm."""
 
     type: Literal["oscillating-roller"] = Field(description="how the follower moves, and what touches the cam")
     roller_radius: Length = Field(description="radius of the roller")
-    arm: Length = Field(description="pivot to roller centre")
-    center_distance: Length | None = Field(
-        None, description="cam axis to pivot; default with cam.size: that of the smallest cam"
-    )
+
+
+class OscillatingKnifeEdge(OnRocker):
+    """A knife edge on a rocking arm."""
+
+    type: Literal["oscillating-knife-edge"] = Field(description="how the follower moves, and what touches the cam")
 
 
 class OscillatingFlat(Oscillating):
@@ -88,7 +110,13 @@ class OscillatingFlat(Oscillating):
 
 
 Follower = Annotated[
-    TranslatingRoller | TranslatingFlat | OscillatingRoller | OscillatingFlat, Field(discriminator="type")
+    TranslatingRoller
+    | TranslatingKnifeEdge
+    | TranslatingFlat
+    | OscillatingRoller
+    | OscillatingKnifeEdge
+    | OscillatingFlat,
+    Field(discriminator="type"),
 ]
 
 
@@ -99,7 +127,7 @@ class Size(Spec):
         None, description="maximum pressure angle, or [rise, return]; default: limits.pressure_angle"
     )
     curvature_radius: Length | None = Field(
-        None, description="minimum curvature radius of the pitch curve (flat: of the profile); roller_radius/0.8"
+        None, description="minimum curvature radius of the pitch curve (flat: of the profile); of a roller radius/0.8"
     )
 
 
@@ -108,10 +136,15 @@ class CamBody(Spec):
 
     sense: Assembly = Field(1, description="+1: the cam turns counter-clockwise; -1: clockwise")
     prime_radius: Length | None = Field(None, description="cam axis to roller centre at lift 0")
-    base_radius: Length | None = Field(None, description="of a flat face: cam axis to the surface at lift 0")
+    base_radius: Length | None = Field(None, description="of a face or an edge: cam axis to the surface at lift 0")
     size: Size | None = Field(None, description="the smallest cam that keeps these limits, instead of a radius")
     shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not checked")
     cutter_radius: Length | None = Field(None, description="radius of the cutter or grinding wheel")
+
+    @property
+    def radius(self) -> float | None:
+        """Of both radii the given one [mm]."""
+        return self.base_radius if self.prime_radius is None else self.prime_radius
 
 
 class ReturnRoller(Spec):
@@ -183,7 +216,9 @@ class DiscCamLimits(LoadLimits):
     pressure_angle: SteepAngle | Strokes | None = Field(
         None, description="maximum pressure angle, or [rise, return]; 30 translating, 45 oscillating"
     )
-    curvature_radius: Distance = Field(0.0, description="of a flat face: radius of the profile below which it warns")
+    curvature_radius: Distance = Field(
+        0.0, description="of a face or an edge: convex radius of the profile below which it warns"
+    )
     jerk_step: Distance | None = Field(None, description="maximum jump of the jerk, lift per rad^3")
 
 
@@ -191,7 +226,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     """A disc cam with its follower."""
 
     kind: Literal["disc-cam"]
-    follower: Follower = Field(description="what the cam moves: roller or flat face, sliding or rocking")
+    follower: Follower = Field(description="what the cam moves: roller, knife edge or flat face, sliding or rocking")
     cam: CamBody = Field(description="sense and size of the cam")
     closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
     return_roller: ReturnRoller | None = Field(None, description="the second roller of a conjugate pair")
@@ -209,20 +244,37 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self.follower.type.endswith("flat")
 
     @property
+    def is_edge(self) -> bool:
+        """Whether the follower has a knife edge."""
+        return self.follower.type.endswith("edge")
+
+    @property
+    def rolls(self) -> bool:
+        """Whether the follower has a roller."""
+        return self.follower.type.endswith("roller")
+
+    @property
+    def radius_key(self) -> str:
+        """Key of the cam's radius."""
+        return "cam.prime_radius" if self.rolls else "cam.base_radius"
+
+    @property
     def oscillates(self) -> bool:
         """Whether the follower rocks."""
         return self.follower.type.startswith("oscillating")
 
     @model_validator(mode="after")
     def _one_radius(self) -> DiscCamSpec:
-        cam, wanted, other = self.cam, "prime_radius", "base_radius"
-        if self.is_flat:
-            wanted, other = other, wanted
+        cam = self.cam
+        wanted, other = ("prime_radius", "base_radius") if self.rolls else ("base_radius", "prime_radius")
         if (given := getattr(cam, other)) is not None:
             message = f"{other} goes with a roller\ngive cam.base_radius instead"
-            if not self.is_flat:
+            if self.rolls:
                 whole = given + getattr(self.follower, "roller_radius", 0.0)
-                message = f"{other} goes with a flat face\ngive cam.prime_radius: {whole:g} (with the roller's radius)"
+                message = (
+                    f"{other} goes with a flat face or an edge\n"
+                    f"give cam.prime_radius: {whole:g} (with the roller's radius)"
+                )
             raise _refuse(f"cam.{other}", message)
         if (getattr(cam, wanted) is None) == (cam.size is None):
             both = cam.size is not None
@@ -238,27 +290,26 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
                 raise _refuse("cam.size", "a flat face is sized by curvature_radius\ngive it")
             if size.pressure_angle is not None:
                 raise _refuse("cam.size", "a flat face is sized by curvature_radius alone\nomit pressure_angle")
-        if isinstance(follower, TranslatingRoller):
+        if isinstance(follower, OnSlide):
             if follower.offset == "best":
                 if size is None:
                     raise _refuse(
                         "follower.offset", "offset: best goes with cam.size\ngive cam.size, or a number in mm"
                     )
-            elif self.cam.prime_radius is not None and abs(follower.offset) >= self.cam.prime_radius:
-                most = self.cam.prime_radius
+            elif (most := self.cam.radius) is not None and abs(follower.offset) >= most:
                 message = (
-                    f"magnitude of the offset: {abs(follower.offset):g} mm (limit < {most:g} mm, cam.prime_radius)"
+                    f"magnitude of the offset: {abs(follower.offset):g} mm (limit < {most:g} mm, {self.radius_key})"
                 )
                 message += f"\nset follower.offset within -{most:g} and {most:g} mm"
                 raise _refuse("follower.offset", message)
-        if isinstance(follower, OscillatingRoller) and follower.center_distance is None and size is None:
+        if isinstance(follower, OnRocker) and follower.center_distance is None and size is None:
             raise _refuse("follower", "give follower.center_distance, or cam.size that finds the pivot")
         return self
 
     @model_validator(mode="after")
     def _closed(self) -> DiscCamSpec:
         roller = self.return_roller
-        if self.is_flat and self.closure != "spring":
+        if not self.rolls and self.closure != "spring":
             raise _refuse("closure", f"{self.closure} goes with a roller\nset closure to spring")
         if (roller is not None) != (self.closure == "conjugate"):
             message = (
@@ -274,6 +325,25 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
                     raise _refuse(f"return_roller.{key}", f"this follower's return roller has no {key}\nomit it")
             if any(getattr(roller, key) is None for key in own):
                 raise _refuse("return_roller", "the return roller of a rocker has arm and angle\ngive both")
+        return self
+
+    @model_validator(mode="after")
+    def _without_a_roller(self) -> DiscCamSpec:
+        if not self.is_edge:
+            return self
+        if self.errors is not None and self.errors.roller_radius:
+            raise _refuse("errors.roller_radius", "roller_radius goes with a roller\nomit it")
+        material = None if self.loads is None else self.loads.material
+        pressed = {
+            "roller": None if self.loads is None else self.loads.roller,
+            "material.allowed_pressure": None if material is None else material.allowed_pressure,
+        }
+        for key, given in pressed.items():
+            if given is not None:
+                message = (
+                    f"a knife edge has no contact pressure, its radius being 0\nomit loads.{key}, or take a roller"
+                )
+                raise _refuse(f"loads.{key}", message)
         return self
 
     def pressure_limits(self) -> tuple[float, float]:

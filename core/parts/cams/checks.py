@@ -22,6 +22,7 @@ from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, LARGER, PRESSURE_ANGLE
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.flat_cam import FlatCam
 
@@ -106,6 +107,19 @@ def flat_undercut_check(cam: FlatCam, limit: float, larger: str) -> Check:
     at = f"cam angle {short(math.degrees(least.place))} deg"
     fix = larger.format(safely_above(max(limit, 0.0) - least.value))
     return CAM_UNDERCUT.check(status, what, least.value, limit, "mm", side=">=", shown=shown, at=at, fix=fix)
+
+
+def edge_check(least: Extreme, limit: float, larger: str) -> Check:
+    """GL402 of the profile under a knife edge, which cuts no profile: whether it is as sharp as the file allows.
+
+    Parameters
+        least : minimum convex radius of the profile [mm] and its cam angle [rad]
+        limit : float [mm] - below which it warns
+        larger : str - the words for a larger cam
+    """
+    status: Status = "warn" if least.value < limit * (1.0 - 1e-9) else "pass"
+    what, at = "minimum convex radius of the profile", f"cam angle {short(math.degrees(least.place))} deg"
+    return CAM_UNDERCUT.check(status, what, least.value, limit, "mm", side=">=", at=at, fix=larger)
 
 
 def against_curvature(roller: float, least: float, status: Status) -> Shown:

@@ -25,14 +25,15 @@ CAM_UNDERCUT = Rule(
     "GL402",
     "roller undercuts the cam",
     "The roller is as large as the minimum convex curvature radius of the pitch curve, or cuts into the profile "
-    "elsewhere.",
+    "elsewhere. The profile under a flat face is undercut where its curvature radius is not positive; that under a "
+    "knife edge never is. Below limits.curvature_radius both are warned of.",
     "The cutter removes part of the profile: the follower does not make the required motion. The tables show "
     "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
     "Take a roller below 0.8 of the minimum curvature radius, or enlarge the base circle.",
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
     "VDI 2142; own derivation of the cut elsewhere",
     ("cam-undercut",),
-    ("cam.roller_radius", "cam.roller", "cam", "roller_radius", "cams"),
+    ("cam.roller_radius", "cam.roller", "cam", "roller_radius", "cams", "limits.curvature_radius"),
     side="<=",
 )
 VELOCITY_STEP = Rule(
@@ -167,7 +168,7 @@ CUTTER_RADIUS = Rule(
     "The cutter (cam.cutter_radius) is as large as the minimum concave radius of the profile.",
     "It cannot reach into the concave part: it leaves material, and the follower is lifted there.",
     "Take a smaller cutter or grinding wheel, or enlarge the cam.",
-    "r_c < 1/max(-kappa) + r_g, kappa of the pitch curve",
+    "r_c < 1/max(-kappa) + r_g, kappa of the pitch curve; r_c < r_g at its concave corner, where the velocity jumps",
     "VDI 2142",
     ("cutter-radius",),
     ("cam.cutter_radius", "cam"),

@@ -30,6 +30,8 @@ _TURN = 2.0 * math.pi
 SAMPLES = 512
 _BESIDE = 1e-7
 """Of a joint [rad]: there a profile goes on by more than rounding, and a corner that no roller feels goes unseen."""
+_AT_CORNER, _TURNS = 1e-9, 1e-6
+"""So near to a joint [rad] a curve that has no corner there turns by less [rad]."""
 _WITH_PLACE = ("max_pressure_angle", "most_convex")
 FOUND_TOGETHER = (*_WITH_PLACE, "max_radius", "min_radius", "least_support")
 
@@ -165,6 +167,17 @@ class DiscCam:
         return convex_radius(self.most_convex)
 
     @cached_property
+    def corners(self) -> list[Extreme]:
+        """Turns of the pitch curve where the lift's velocity jumps [rad], convex positive, and their places."""
+        places = np.array(self.bounds)
+        sides = np.mod(np.stack((places - _AT_CORNER, places + _AT_CORNER)), _TURN)
+        before, after = self.normals(sides.ravel()).reshape(sides.shape)
+        turns = -self.sense * np.angle(after * np.conj(before))
+        return [
+            Extreme(turn, place) for turn, place in zip(turns.tolist(), self.bounds, strict=True) if abs(turn) > _TURNS
+        ]
+
+    @cached_property
     def max_radius(self) -> float:
         """Largest radius of the profile; where that loops, of its parts that no roller cuts away at most [mm]."""
         return maximum_over(self.radius, joints=self.bounds, samples=SAMPLES).value
@@ -205,13 +218,13 @@ class DiscCam:
         return found & runs.reshape(np.shape(found))  # type: ignore[no-any-return]
 
     def table(self, name: str, samples: int | None = None) -> Table:
-        """The cam as a table over the cam angle, as many rows as asked for."""
+        """The cam as a table over the cam angle, as many rows as asked for; under an edge the profile alone."""
         degrees = turn_degrees(samples)
         cam = self.at(np.radians(degrees))
+        pitch = {"pitch_x": (cam.pitch.real, "mm"), "pitch_y": (cam.pitch.imag, "mm")} if self.roller_radius else {}
         columns = {
             "cam_angle": (degrees, "deg"),
-            "pitch_x": (cam.pitch.real, "mm"),
-            "pitch_y": (cam.pitch.imag, "mm"),
+            **pitch,
             "x": (cam.profile.real, "mm"),
             "y": (cam.profile.imag, "mm"),
             "pressure_angle": (np.degrees(cam.pressure_angle), "deg"),

@@ -149,6 +149,10 @@ class CamLoadsDesign(LoadsDesign):
         """Cam angle at input angles [deg]; the input's where the cam turns with it."""
         return np.degrees(phi)
 
+    def called(self, name: str) -> str:
+        """What messages call a roller."""
+        return f"{name} roller"
+
     @property
     def closing_remedy(self) -> str:
         """What would press the rollers harder to their cams."""
@@ -356,10 +360,10 @@ class CamLoadsDesign(LoadsDesign):
             return
         for name, extreme in zip(self.own_rollers, found, strict=True):
             if extreme is None:
-                yield pressed_where_undercut(f"the {name} roller presses where its cam", allowed)
+                yield pressed_where_undercut(f"the {self.called(name)} presses where its cam", allowed)
                 continue
             at = f"{short(math.degrees(extreme.place))} deg"
-            yield pressure_check(f"contact pressure of the {name} roller", extreme.value, allowed, at)
+            yield pressure_check(f"contact pressure of the {self.called(name)}", extreme.value, allowed, at)
 
     def check_contact_loss(self) -> Iterator[Check]:
         """GL608: rollers that something presses to their cams."""
@@ -370,11 +374,11 @@ class CamLoadsDesign(LoadsDesign):
             status: Status = "fail" if low.value < 0.0 else "warn" if low.value < _LEAST_SHARE * mean else "pass"
             yield CONTACT_LOSS.check(
                 status,
-                f"minimum contact force of the {name} roller",
+                f"minimum contact force of the {self.called(name)}",
                 low.value,
                 0.0,
                 "N",
-                overlap=f"contact force lacking: the {name} roller leaves its cam",
+                overlap=f"contact force lacking: the {self.called(name)} leaves its cam",
                 recommended=_LEAST_SHARE * mean,
                 at=f"{short(math.degrees(low.place))} deg",
                 fix=self.closing_remedy,

@@ -15,7 +15,7 @@ from sheets import lines, meetings, panel, panel_named, points, sheet, tagged
 from gearlink.cli.views.figures import cams, of_motion
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.drawing.placing import settled
-from gearlink.cli.views.figures.sheets import motion_sheet
+from gearlink.cli.views.figures.sheets import motion_sheet, true_size
 from gearlink.cli.views.figures.write import draw
 from gearlink.cli.views.scenes.scene import Body, Chain
 from gearlink.core.mechanism import vectors
@@ -70,6 +70,43 @@ def test_the_face_of_a_rocker_hangs_on_its_pivot() -> None:
     touch = made.cams.flat.touch(2.0 * math.pi * SHARES)
     assert np.abs(((end - foot) * touch.normal.conjugate()).real).max() < 1e-9, "along the tangent of the cam"
     assert np.abs(((touch.point - foot) * touch.normal.conjugate()).real).max() < 1e-9
+
+
+@pytest.mark.parametrize("kind", ["translating-flat", "translating-knife-edge"])
+def test_the_block_of_a_slide_is_off_the_cam(kind: str) -> None:
+    """It lay on the face, half in the cam."""
+    made = design({**FLAT, "follower": {"type": kind, "direction": 70}})
+    blocks = [part for part in cams.build(made, SHARES).parts if isinstance(part, Body) and len(part.outline) == 5]
+    (block,) = blocks
+    along = (block.place * cmath.exp(-1j * math.radians(70.0))).real
+    assert (along - np.abs(block.outline).max() > 25.0 + made.cams.motion.evaluate(2.0 * math.pi * SHARES, 0)[0]).all()
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_knife_edge_stands_with_its_tip_on_the_profile_outside_the_cam(sense: int, side: int) -> None:
+    parts = {"arm": 100, "center_distance": 120, "side": side, "pivot_direction": 30}
+    for follower in (
+        {"type": "oscillating-knife-edge", **parts},
+        {"type": "translating-knife-edge", "offset": 5.0 * side},
+    ):
+        made = design({**FLAT, "follower": follower, "cam": {"base_radius": 50, "sense": sense}})
+        cam, *_, edge = [part for part in cams.build(made, SHARES).parts if isinstance(part, Body)]
+        assert edge.outline[0] == 0.0
+        turned = np.exp(-1j * cam.turn)
+        assert np.abs(turned * edge.place - made.cams.main.points(2.0 * math.pi * SHARES)[1]).max() < 1e-9
+        for share in (0.2, 1.0):
+            corners = edge.place + share * np.exp(1j * edge.turn) * edge.outline[1:3, None]
+            radius = made.cams.main.radius(2.0 * math.pi * SHARES)
+            assert (np.abs(corners) > radius).all()
+
+
+def test_the_drawing_of_a_knife_edge_says_so() -> None:
+    made = design({**FLAT, "follower": {"type": "translating-knife-edge"}})
+    words = " ".join(true_size.notes(made, made.cams.main))
+    assert true_size.workshop_drawing(made, 0).axes
+    for each in ("Knife-edge follower", "radius of the profile", "the path of the edge", "edge at cam angle 0"):
+        assert each in words
 
 
 def test_both_rollers_of_a_conjugate_cam_hang_on_their_follower() -> None:

@@ -29,6 +29,7 @@ SLIDE = {
     "loads": {"roller": {"width": 15}, "gravity": [0, -9.81], "forces": [{"on": "follower", "force": -12}]},
 }
 FLAT = {"type": "translating-flat", "mass": 1.8, "direction": 60}
+EDGE = {"type": "translating-knife-edge", "mass": 1.8, "offset": 6, "direction": 60}
 ROCKING_FLAT = {"type": "oscillating-flat", "center_distance": 120, "face_offset": 4, "inertia": 0.02}
 PHI = np.linspace(0.0, 2.0 * math.pi, 361)[:-1]
 
@@ -38,10 +39,11 @@ def loads(**keys: Any) -> Any:
 
 
 @pytest.mark.parametrize("sense", [1, -1])
-@pytest.mark.parametrize("follower", [SLIDE["follower"], FLAT], ids=["roller", "flat"])
+@pytest.mark.parametrize("follower", [SLIDE["follower"], FLAT, EDGE], ids=["roller", "flat", "edge"])
 def test_the_force_of_the_joints_is_that_along_the_lift(sense: int, follower: dict[str, Any]) -> None:
-    body = {"base_radius": 40} if follower is FLAT else {"prime_radius": 40}
-    design = loads(follower=follower, cam={**body, "sense": sense})
+    body = {"prime_radius": 40} if follower is SLIDE["follower"] else {"base_radius": 40}
+    section = {key: value for key, value in SLIDE["loads"].items() if follower is not EDGE or key != "roller"}
+    design = loads(follower=follower, cam={**body, "sense": sense}, loads=section)
     assert design.contact_force("main", PHI) == pytest.approx(design.closing.contact_force(PHI), rel=1e-11)
     torque = sense * design.machine.torque(PHI)
     assert torque == pytest.approx(design.cam_torque(PHI), abs=1e-11)
@@ -49,12 +51,14 @@ def test_the_force_of_the_joints_is_that_along_the_lift(sense: int, follower: di
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("flat", [False, True])
-def test_the_same_of_a_rocker(side: int, flat: bool) -> None:
-    follower = {"type": "oscillating-roller", "roller_radius": 10, "arm": 90, "center_distance": 120, "inertia": 0.02}
+@pytest.mark.parametrize("touching", ["roller", "flat", "edge"])
+def test_the_same_of_a_rocker(side: int, touching: str) -> None:
+    arm = {"arm": 90, "center_distance": 120, "inertia": 0.02}
+    follower: dict[str, Any] = {"type": "oscillating-roller", "roller_radius": 10, **arm}
     body = {"prime_radius": 60}
-    if flat:
-        follower, body = ROCKING_FLAT, {"base_radius": 45}
+    if touching != "roller":
+        body = {"base_radius": 45 if touching == "flat" else 60}
+        follower = ROCKING_FLAT if touching == "flat" else {"type": "oscillating-knife-edge", **arm}
     spring, section = {"preload": 6, "rate": 9}, {"forces": [{"on": "follower", "torque": 0.7}]}
     design = loads(follower={**follower, "side": side}, cam=body, spring=spring, loads=section)
     assert design.contact_force("main", PHI) == pytest.approx(design.closing.contact_force(PHI), rel=1e-10)

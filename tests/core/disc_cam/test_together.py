@@ -33,6 +33,14 @@ FILES: dict[str, dict[str, Any]] = {
     "spring": {
         "follower": ROLLER, "cam": {"prime_radius": 60, "shaft_radius": 20, "cutter_radius": 5}, "spring": SPRING,
     },
+    "edge": {
+        "follower": {"type": "translating-knife-edge", "offset": 5, "mass": 2},
+        "cam": {"base_radius": 60, "shaft_radius": 20, "cutter_radius": 5}, "spring": SPRING,
+    },
+    "rocking edge": {
+        "follower": {"type": "oscillating-knife-edge", "arm": 100, "center_distance": 140, "inertia": 0.04},
+        "cam": {"base_radius": 80, "sense": -1}, "spring": {"preload": 12, "rate": 20},
+    },
     "groove": {"follower": ROLLER, "cam": {"prime_radius": 60}, "closure": "groove"},
     "conjugate": {
         "follower": ROLLER, "cam": {"prime_radius": 60}, "closure": "conjugate", "return_roller": {"radius": 11},
@@ -62,7 +70,8 @@ CHANGES = {
 
 
 def _file(name: str, **keys: Any) -> dict[str, Any]:
-    errors = {"profile": 0.01, "run_out": 0.02, "key": 0.03, "roller_radius": 0.005, "waves": 40}
+    errors: dict[str, Any] = {"profile": 0.01, "run_out": 0.02, "key": 0.03, "waves": 40}
+    errors |= {} if "edge" in name else {"roller_radius": 0.005}
     whole = {"kind": "disc-cam", "name": "x", "speed": 150, "motion": MOTION, "errors": errors, "servo": {"rows": 73}}
     return whole | FILES[name] | keys
 

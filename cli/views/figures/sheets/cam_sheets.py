@@ -77,13 +77,34 @@ class UnderFace:
         return point + 0.5j * self.max_radius * normal * np.array([-1.0, 1.0])
 
 
+def touching(cam: Any) -> str:
+    """What of the follower a cam touches: roller, face or edge."""
+    return "roller" if cam.roller_radius else "face" if isinstance(cam, UnderFace) else "edge"
+
+
+_EDGE_LENGTH, _EDGE_HALF = 0.2, 0.3
+"""Of the radius at its tip the length of a knife edge as it is drawn, and of that half its width."""
+
+
+def edge_outline(cam: DiscCam) -> Points:
+    """Outline of a knife edge [mm], its tip at 0 and the follower towards +x."""
+    length = _EDGE_LENGTH * float(cam.radius(np.zeros(1))[0])
+    return np.asarray(length * np.array([0j, complex(1.0, _EDGE_HALF), complex(1.0, -_EDGE_HALF), 0j]))
+
+
+def away(cam: DiscCam, cam_angle: Reals) -> Points:
+    """Unit vectors along the follower's motion, off the cam, in the frame of the machine."""
+    along, normal = cam.path(cam_angle, 1).direction, cam.normals(cam_angle)
+    return np.asarray(along * np.sign((np.conj(along) * normal).real))
+
+
 def drawn_discs(design: Any) -> tuple[Any, ...]:
     """The cams that the workshop makes for a follower."""
     return (UnderFace(design.cams.flat),) if design.spec.is_flat else follower_discs(design)
 
 
 def follower_discs(design: Any) -> tuple[DiscCam, ...]:
-    """The cams of a roller follower, one or two; none under a flat face."""
+    """The cams of a roller or an edge, one or two; none under a flat face."""
     return () if design.spec.is_flat else tuple(design.profiles)
 
 

@@ -350,7 +350,8 @@ def contact(design: Any) -> Figure:
     for axes, cam in zip(rows, cams, strict=True):
         worst = cam.max_pressure_angle
         at_worst = f"{math.degrees(worst.value):.4g}° at cam angle {math.degrees(worst.place):.4g}°"
-        panels.drawing(axes, f"{cam.name}: at most {at_worst}, limit {limit:g}°, rollers every 30°")
+        places = {"roller": "rollers", "edge": "edges"}[cam_sheets.touching(cam)]
+        panels.drawing(axes, f"{cam.name}: at most {at_worst}, limit {limit:g}°, {places} every 30°")
         pitch, profile = cam.points(theta)
         angle = np.degrees(np.abs(cam.pressure_angle(0.5 * (theta[1:] + theta[:-1]))))
         pieces, bar = panels.by_value(axes, profile, angle, limit, 4.0, (1.02, 0.1, 0.025, 0.8))

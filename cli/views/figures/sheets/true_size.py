@@ -92,7 +92,7 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     start = complex(middle.real - 0.5 * _BAR * scale.reduction, low.imag - 7.0 * scale.reduction)
     ends = [start.real, start.real + _BAR * scale.reduction]
     axes.plot(ends, [start.imag] * 2, color=style.BLACK, linewidth=1.0, gid="bar")
-    what = "roller" if cam.roller_radius else "contact"
+    what = _WORDS[cam_sheets.touching(cam)].mark
     words = f"this bar is 100 mm long on paper; start mark: {what} here at cam angle 0"
     axes.text(start.real, start.imag - 1.5 * scale.reduction, words, fontsize=6, va="top")
     title = f"{design.spec.name}: {cam.name}, scale {scale.words}"
@@ -245,7 +245,7 @@ def _reach(cam: Any, wall: Any) -> tuple[complex, complex]:
     if wall is not None:
         profile = wall.points(np.linspace(0.0, _TURN, 721))[1]
     roller, radius = complex(pitch[0]), cam.roller_radius
-    beside = roller + radius * np.array([1, -1, 1j, -1j]) if radius else cam.face()
+    beside = roller + radius * np.array([1, -1, 1j, -1j]) if radius else _follower(cam)
     every = np.concatenate([pitch, profile, beside])
     return complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())
 
@@ -285,10 +285,14 @@ def _view(axes: Axes, page: paper.Page, walls: tuple[DiscCam, Any], scale: float
 
 
 def _follower(cam: Any) -> Any:
-    """The roller or the face at cam angle 0 [mm]."""
-    if not cam.roller_radius:
+    """The roller, the face or the edge at cam angle 0 [mm]."""
+    touching, start = cam_sheets.touching(cam), np.zeros(1)
+    if touching == "face":
         return cam.face()
-    return complex(cam.points(np.zeros(1))[0][0]) + cam.roller_radius * np.exp(1j * np.linspace(0.0, _TURN, 361))
+    at = complex(cam.points(start)[0][0])
+    if touching == "edge":
+        return at + cam_sheets.edge_outline(cam) * complex(cam_sheets.away(cam, start)[0])
+    return at + cam.roller_radius * np.exp(1j * np.linspace(0.0, _TURN, 361))
 
 
 def is_cut(cam: DiscCam) -> bool:
@@ -327,24 +331,39 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
         )
 
 
+class _Words(NamedTuple):
+    """What notes say of a follower: its name, what stands at the start mark, how the profile comes about."""
+
+    follower: str
+    mark: str
+    made: str
+    curve: str = "profile"
+    radius: str = "profile"
+
+
+_WORDS = {
+    "roller": _Words("Roller ⌀{:g} mm", "roller", "the envelope of the roller", "pitch curve", "centre of the roller"),
+    "face": _Words("Flat-faced follower", "contact", "the envelope of the face"),
+    "edge": _Words("Knife-edge follower", "edge", "the path of the edge"),
+}
+
+
 def notes(design: Any, cam: DiscCam) -> list[str]:
-    """What the outline does not say: sense of rotation, roller, what of the file is a tolerance."""
+    """What the outline does not say: sense of rotation, follower, what of the file is a tolerance."""
     sized = [str(line) for line in _tolerances(design)]
-    rolls = bool(cam.roller_radius)
-    follower = f"Roller ⌀{2.0 * cam.roller_radius:g} mm" if rolls else "Flat-faced follower"
+    words = _WORDS[cam_sheets.touching(cam)]
     wall = cam_sheets.outer_wall(design)
-    made = f"the profile is the envelope of the {'roller' if rolls else 'face'}"
+    made = f"the profile is {words.made}"
     if wall is not None:
         radii = f"R{wall.min_radius:.3f} to {wall.max_radius:.3f}"
         made = f"groove between two envelopes of the roller, the outer wall {radii}"
     return [
-        f"Cam turns {'counter-' if cam.sense > 0 else ''}clockwise. {follower}. "
-        f"Start mark (red): {'roller' if rolls else 'contact'} at cam angle 0.",
-        f"Smallest convex radius of the {'pitch curve' if rolls else 'profile'} "
-        f"{_number(cam.min_curvature_radius.value)} mm; {made}{', undercut' if is_cut(cam) else ''}.",
+        f"Cam turns {'counter-' if cam.sense > 0 else ''}clockwise. {words.follower.format(2.0 * cam.roller_radius)}. "
+        f"Start mark (red): {words.mark} at cam angle 0.",
+        f"Smallest convex radius of the {words.curve} {_number(cam.min_curvature_radius.value)} mm; "
+        f"{made}{', undercut' if is_cut(cam) else ''}.",
         _toleranced(sized, [*_errors(design)]),
-        f"Table: radius of the {'centre of the roller' if rolls else 'profile'} [mm] over the angle on the cam [deg], "
-        "counter-clockwise from the mark.",
+        f"Table: radius of the {words.radius} [mm] over the angle on the cam [deg], counter-clockwise from the mark.",
     ]  # fmt: skip
 
 
