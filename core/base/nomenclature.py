@@ -561,8 +561,8 @@ _CAM = {
     "min_curvature_radius": Term(
         "rho_min",
         "mm",
-        "minimum convex radius of the main cam's pitch curve, under a face or an edge of its profile (a list: main, return "
-        "cam)",
+        "minimum convex radius of the main cam's pitch curve, under a face or an edge of its profile (a list: main, "
+        "return cam)",
         "VDI 2142",
     ),
     "max_radius": Term("r_max", "mm", "largest radius of the main cam (a list: main, return cam)"),
@@ -583,6 +583,10 @@ _DISC_CAM = {
         "distance of the line of travel from the axis of crank or cam; of a cam positive where it passes on the right",
     ),
     "start_angle": Term("Psi_0", "deg", "angle of the follower from the line pivot to cam axis at lift 0"),
+    "nose_radius": Term("r_2", "mm", "radius of the nose of a cam that is made of arcs"),
+    "nose_distance": Term("d", "mm", "axis of a cam to the centre of its nose"),
+    "flank_radius": Term("R", "mm", "radius of the flanks of a cam that is made of arcs, negative where concave"),
+    "action_angle": Term("2 alpha", "deg", "cam angle from the start of the rise to the end of the return"),
     "lift_max": Term("s_max", "mm", "maximum lift (oscillating: deg)", "VDI 2143"),
     "lift_max_at": Term("", "deg", "cam angle of the maximum lift"),
     "jerk_max": Term("j'_max", "mm/rad^3", "maximum third derivative of the lift (oscillating: 1/rad^2)", "VDI 2143"),

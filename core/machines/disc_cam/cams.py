@@ -26,6 +26,7 @@ from gearlink.core.machines.disc_cam.spec import (
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
 from gearlink.core.parts.cams import profile
+from gearlink.core.parts.cams.contour import Contour, contour, contour_motion
 from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
 from gearlink.core.parts.cams.flat_cam import FlatCam, rocking_face, sliding_face
 from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
@@ -80,9 +81,19 @@ class FollowerCams:
     @cached_property
     def motion(self) -> FollowerMotion:
         """Lift over the cam angle [mm or rad]."""
+        spec = self.spec
+        made = None if spec.arcs is None else self.contour
+        if made is not None:
+            reach = None if spec.is_flat else float(getattr(spec.follower, "roller_radius", 0.0))
+            return contour_motion(made, reach, self.sense * float(getattr(spec.follower, "offset", 0.0)))
+        assert spec.motion is not None, "a file without a profile has it"
         with at_key("motion"):
-            spec = self.spec
             return motion_of(spec.motion, spec.initial_lift, unit=DEGREE if spec.oscillates else 1.0, spec=spec)
+
+    @cached_property
+    def contour(self) -> Contour | None:
+        """The sizes of a profile that the file gives by its arcs."""
+        return None if self.spec.arcs is None else contour(self.spec.arcs)
 
     @cached_property
     def lifts(self) -> tuple[float, float]:
@@ -134,7 +145,7 @@ class FollowerCams:
         found = self._rocking_place() if self.spec.oscillates else self._sliding_place()
         roller = getattr(self.follower, "roller_radius", 0.0)
         if found.radius <= roller:
-            given = self.spec.cam.prime_radius is not None
+            given = self.spec.radius is not None
             words = "prime_radius" if given else "the minimum prime radius"
             message = (
                 f"{words}: {unlike(found.radius, roller)} mm (limit > {unlike(roller, found.radius)} mm; roller_radius)"
@@ -144,15 +155,15 @@ class FollowerCams:
         return found
 
     def _sliding_place(self) -> Place:
-        follower, cam = self.follower, self.spec.cam
+        follower = self.follower
         if not isinstance(follower, OnSlide):
-            radius = cam.base_radius or flat_base_radius(self.motion, self._least_radius())
+            radius = self.spec.radius or flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
                 message = f"minimum base radius: {short(radius)} mm, the curvature sets none\ngive cam.base_radius"
                 raise NoSolution(message, key="cam.size")
             return Place(radius)
-        if cam.radius is not None:
-            return Place(cam.radius, float(follower.offset))
+        if self.spec.radius is not None:
+            return Place(self.spec.radius, float(follower.offset))
         lines = wedge(self.motion, self.limits, self.sense)
         roller, whole = self.spec.return_roller, sum(self.lifts)
         back: list[Line] = []
@@ -190,14 +201,14 @@ class FollowerCams:
             raise NoSolution(message, key="return_roller.distance", fix=fix)
 
     def _rocking_place(self) -> Place:
-        follower, cam = self.follower, self.spec.cam
+        follower = self.follower
         if isinstance(follower, OscillatingFlat):
             return self._rocking_face_place(follower)
         assert isinstance(follower, OnRocker), "no other follower rocks"
         if follower.center_distance is None:
             return self._found_pivot(follower)
-        if cam.radius is not None:
-            return self._triangle(follower.arm, follower.center_distance, cam.radius)
+        if self.spec.radius is not None:
+            return self._triangle(follower.arm, follower.center_distance, self.spec.radius)
         rocker = Rocking(self.motion, follower.arm, follower.center_distance, self.sense, follower.side)
         low, high = rocker.start_angles(self.limits)
         roller = self.spec.return_roller
@@ -379,7 +390,7 @@ class FollowerCams:
     def main(self) -> DiscCam:
         """The cam of the roller, or of an edge, which is one of radius 0."""
         path = self._rocking_path(self.place) if self.spec.oscillates else self._sliding_path()
-        key = "cam" if self.spec.cam.radius is None else self.spec.radius_key
+        key = "cam" if self.spec.radius is None else self.spec.radius_key
         radius = getattr(self.follower, "roller_radius", 0.0)
         return DiscCam("main cam", path, self.sense, radius, self.motion.joints, key)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.errors import MissingSection
-from gearlink.core.base.many_designs import column, hand_out, sought, together
+from gearlink.core.base.many_designs import Unlike, column, hand_out, sought, together
 from gearlink.core.base.remedies.ways import Way, down, either, thinner, up
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
@@ -27,6 +27,7 @@ from gearlink.core.parts.cams.codes import (
     OUTER_WALL,
     PRESSURE_ANGLE,
 )
+from gearlink.core.parts.cams.contour import arcs_table
 from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
@@ -34,6 +35,7 @@ from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+    from gearlink.core.parts.cams.contour import Contour
     from gearlink.core.parts.cams.flat_cam import FlatCam
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
 
@@ -41,6 +43,10 @@ if TYPE_CHECKING:
 _QUANTITIES = (
     "prime_radius",
     "base_radius",
+    "nose_radius",
+    "nose_distance",
+    "flank_radius",
+    "action_angle",
     "offset",
     "start_angle",
     "center_distance",
@@ -92,7 +98,7 @@ _CHECKS = (
     "cutter-radius",
     *LAW_CHECKS,
 )
-_ENLARGED = (up("cam.prime_radius"), up("cam.base_radius"))
+_ENLARGED = (up("cam.prime_radius"), up("cam.base_radius"), up("profile.base_radius"))
 _OUTLINE = Outline(_QUANTITIES, _CHECKS, ("follower", "main_cam", "return_cam"))
 
 
@@ -105,6 +111,17 @@ class DiscCamDesign(OfFollower, Design):
         ("cam", "analyze"),
         (
             "lift_max",
+            *(
+                (f"?{name}", "?.contour")
+                for name in (
+                    "nose_radius",
+                    "nose_distance",
+                    "flank_radius",
+                    "action_angle",
+                    "^follower_velocity_m*",
+                    "follower_acceleration_m*",
+                )
+            ),
             "prime_radius",
             ("?base_radius", "?.sized_base_radius"),
             ("max_pressure_angle", "<limits.pressure_angle", "<cam.size.pressure_angle"),
@@ -132,6 +149,7 @@ class DiscCamDesign(OfFollower, Design):
     }
     extra_tables: ClassVar[tuple[str, ...]] = (
         "segments",
+        "arcs",
         "outer_wall",
         "cutter",
         "radius",
@@ -184,8 +202,10 @@ class DiscCamDesign(OfFollower, Design):
             yield Found("limits.pressure_angle", size.pressure_angle, "of cam.size")
 
     def outline(self, command: str) -> Outline:
-        """Without the table of a return cam where there is none."""
+        """Without the table of a return cam where there is none, and with that of the arcs of a profile."""
         found = super().outline(command)
+        if self.spec.arcs is not None:
+            found = found._replace(tables=("arcs", *found.tables))
         if self.spec.return_roller is None:
             found = found._replace(tables=tuple(name for name in found.tables if name != "return_cam"))
         return found
@@ -215,6 +235,25 @@ class DiscCamDesign(OfFollower, Design):
         return None if self.spec.rolls or self.spec.cam.size is None else self.base_radius
 
     @property
+    def contour(self) -> Contour | None:
+        """The sizes of a profile that the file gives by its arcs."""
+        return self.cams.contour
+
+    nose_radius: float | None = placed("contour.nose")
+    nose_distance: float | None = placed("contour.distance")
+
+    @property
+    def flank_radius(self) -> float | None:
+        """Radius of the flanks, negative where hollow [mm]; None where they are straight, or there are none."""
+        flank = None if self.contour is None else self.contour.flank
+        return None if flank is None or math.isinf(flank) else flank
+
+    @property
+    def action_angle(self) -> float | None:
+        """Cam angle from the start of the rise to the end of the return [rad]."""
+        return None if self.contour is None else 2.0 * self.contour.ascent
+
+    @property
     def offset(self) -> float | None:
         """Offset of a translating roller or edge [mm]."""
         return self.cams.place.offset if hasattr(self.spec.follower, "offset") else None
@@ -240,6 +279,11 @@ class DiscCamDesign(OfFollower, Design):
     def follower_motion(self) -> FollowerMotion:
         """Lift over the cam angle [mm or rad]."""
         return self.cams.motion
+
+    @property
+    def smoother(self) -> str:  # type: ignore[override]
+        """What avoids steps of the acceleration; the joints of arcs have them."""
+        return super().smoother if self.spec.arcs is None else "give motion by laws such as cycloidal, without profile"
 
     @property
     def rocks(self) -> bool:
@@ -332,6 +376,7 @@ class DiscCamDesign(OfFollower, Design):
         """Refuse a table whose key the file does not have."""
         spec = self.spec
         needs = {
+            "arcs": (spec.arcs is not None, "profile", "profile: {type: tangent}"),
             "cutter": (spec.cam.cutter_radius is not None, "cam", "cam.cutter_radius"),
             "errors": (spec.errors is not None, "errors", "errors: {profile: 0.01}"),
             "servo": (spec.servo is not None, "servo", "servo: {rows: 73}"),
@@ -341,6 +386,12 @@ class DiscCamDesign(OfFollower, Design):
         given, key, words = needs.get(name, (True, "", ""))
         if not given:
             raise MissingSection(f"the table {name} needs {words}", key=key)
+
+    def table_arcs(self, _samples: int | None = None) -> Table:
+        """The arcs of a profile, with velocity and acceleration of the follower at both ends of each."""
+        self.require_table("arcs")
+        assert self.contour is not None
+        return arcs_table(self.contour, self.follower_motion, self.speed)
 
     def table_main_cam(self, samples: int | None = None) -> Table:
         """The main cam; of a groove its inner wall."""
@@ -686,9 +737,11 @@ def found_together(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> No
         designs : of files that differ by numbers of cam and follower
         names : quantities that will be asked for
     Raises
-        Unlike - for files that differ otherwise
+        Unlike - for files that differ otherwise, or whose motion follows from their sizes
         NoSolution - where one of them does not exist
     """
+    if designs[0].spec.arcs is not None:
+        raise Unlike
     spec = together([design.spec for design in designs], _ALIKE)
     _shared_motion(designs, names)
     _found(designs, spec, names)

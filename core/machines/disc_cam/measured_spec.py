@@ -138,6 +138,8 @@ class MeasuredCamSpec(TolerancedSpec):
     is_edge: ClassVar[bool] = False
     rolls: ClassVar[bool] = True
     radius_key: ClassVar[str] = "cam.prime_radius"
+    radius: ClassVar[None] = None
+    arcs: ClassVar[None] = None
     return_roller: ClassVar[None] = None
     errors: ClassVar[None] = None
     servo: ClassVar[None] = None

@@ -21,7 +21,8 @@ from gearlink.core.base.spec import (
     TolerancedSpec,
     also,
 )
-from gearlink.core.parts.cams.motion_spec import OfFollowerKeys, SteepAngle
+from gearlink.core.parts.cams.contour_spec import CamProfile
+from gearlink.core.parts.cams.motion_spec import FollowerMotion, OfFollowerKeys, SteepAngle, require_closed
 
 Strokes = Annotated[list[SteepAngle], Field(min_length=2, max_length=2), Entries("[rise, return]")]
 Kilograms = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
@@ -226,8 +227,14 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     """A disc cam with its follower."""
 
     kind: Literal["disc-cam"]
+    motion: FollowerMotion | None = Field(  # type: ignore[assignment]
+        None, description="lift over the turn (mm; oscillating follower: deg): segments with laws, or a table"
+    )
+    profile: CamProfile | None = Field(
+        None, description="arcs of the cam, from which its motion and radius follow, instead of motion"
+    )
     follower: Follower = Field(description="what the cam moves: roller, knife edge or flat face, sliding or rocking")
-    cam: CamBody = Field(description="sense and size of the cam")
+    cam: CamBody = Field(CamBody.model_construct(), description="sense and size of the cam")
     closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
     return_roller: ReturnRoller | None = Field(None, description="the second roller of a conjugate pair")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
@@ -256,6 +263,8 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     @property
     def radius_key(self) -> str:
         """Key of the cam's radius."""
+        if self.profile is not None:
+            return "profile.radius" if self.profile.type == "eccentric" else "profile.base_radius"
         return "cam.prime_radius" if self.rolls else "cam.base_radius"
 
     @property
@@ -263,9 +272,43 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         """Whether the follower rocks."""
         return self.follower.type.startswith("oscillating")
 
+    @property
+    def arcs(self) -> CamProfile | None:
+        """The profile that the file gives by its arcs; that of a measured cam is one of points."""
+        return self.profile
+
+    @property
+    def radius(self) -> float | None:
+        """The radius of the cam that the file gives [mm]."""
+        if self.profile is None:
+            return self.cam.radius
+        return self.profile.base_radius + getattr(self.follower, "roller_radius", 0.0)
+
+    @model_validator(mode="after")
+    def _runs(self) -> DiscCamSpec:
+        if self.motion is not None:
+            if self.profile is not None:
+                raise _refuse("profile", "profile makes the motion\nomit one of them")
+            require_closed(self.motion, self.initial_lift)
+            return self
+        if self.profile is None:
+            message = "the key 'motion' is missing\ngive motion, a list of segments such as {to: 120, lift: 20, law: "
+            message += "cycloidal}, or a table; or profile, such as {type: tangent}"
+            raise PydanticCustomError("GL106", "{message}", {"message": message, "key": "motion"})
+        if self.oscillates:
+            raise _refuse("profile", "profile goes with a follower that slides\ngive motion")
+        if self.initial_lift:
+            raise _refuse("initial_lift", "a profile begins at lift 0\nomit initial_lift")
+        return self
+
     @model_validator(mode="after")
     def _one_radius(self) -> DiscCamSpec:
         cam = self.cam
+        if self.profile is not None:
+            for key in ("prime_radius", "base_radius", "size"):
+                if getattr(cam, key) is not None:
+                    raise _refuse(f"cam.{key}", f"profile has the radius of the cam\nomit cam.{key}")
+            return self
         wanted, other = ("prime_radius", "base_radius") if self.rolls else ("base_radius", "prime_radius")
         if (given := getattr(cam, other)) is not None:
             message = f"{other} goes with a roller\ngive cam.base_radius instead"
@@ -296,7 +339,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
                     raise _refuse(
                         "follower.offset", "offset: best goes with cam.size\ngive cam.size, or a number in mm"
                     )
-            elif (most := self.cam.radius) is not None and abs(follower.offset) >= most:
+            elif (most := self.radius) is not None and abs(follower.offset) >= most:
                 message = (
                     f"magnitude of the offset: {abs(follower.offset):g} mm (limit < {most:g} mm, {self.radius_key})"
                 )

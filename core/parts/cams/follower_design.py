@@ -75,6 +75,9 @@ class OfFollower(WithExtremes, WithShapedLaws):
         """The optimal laws as they were solved."""
         return self.solved_laws()
 
+    smoother: str = "use laws that end with zero acceleration, such as cycloidal"
+    """What avoids steps of the acceleration."""
+
     @property
     def rocks(self) -> bool:
         """Whether the follower oscillates."""
@@ -133,7 +136,7 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     def table_segments(self, _samples: int | None = None) -> Table:
         """Each segment with its law and the extremes of its velocity and acceleration, in time as well at a speed."""
-        if not isinstance(self.spec.motion, list):
+        if not isinstance(self.spec.motion, list | None):
             raise MissingSection("the table segments needs motion by segments", key="motion")
         pieces = self.follower_motion.pieces
         found = [_extremes_within(piece) for piece in pieces]
@@ -172,9 +175,7 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     def check_acceleration_step(self) -> Check:
         """GL404."""
-        return step_check(
-            ACCELERATION_STEP, *self._steps(2), "warn", "use laws that end with zero acceleration, such as cycloidal"
-        )
+        return step_check(ACCELERATION_STEP, *self._steps(2), "warn", self.smoother)
 
     def check_jerk_step(self) -> Check:
         """GL407."""

@@ -33,7 +33,7 @@ from gearlink.cli.reading.loaded_file import parse_path
 from gearlink.cli.reading.model_errors import number_remedy
 from gearlink.cli.reading.yaml_reader import MAX_DEPTH
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+from gearlink.core.machines.cylindrical_cam import CylindricalCamSpec
 
 KINDS = ("three-gear-four-bar", "gear-pair", "slider-crank")
 
@@ -741,7 +741,7 @@ def test_a_file_name_that_is_no_text_heads_pages_too(gearlink: Any, tmp_path: Pa
 
 def test_a_missing_list_names_the_keys_of_its_entries() -> None:
     with pytest.raises(DesignFileError) as refused:
-        validate(parse(b"kind: disc-cam\n", "x.yaml"), DiscCamSpec)
+        validate(parse(b"kind: cylindrical-cam\n", "x.yaml"), CylindricalCamSpec)
     help = next(found.help for found in refused.value.diagnostics if found.key == "motion")
     assert "the keys of an entry are to, lift, law" in help
     assert help.endswith("those of a section are table, file, columns, degrees")

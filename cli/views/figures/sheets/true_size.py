@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.machines.flatbed_press.design import FlatbedPress
+    from gearlink.core.parts.cams.contour import Contour
     from gearlink.core.parts.cams.disc_cam import DiscCam
 
 
@@ -354,6 +355,8 @@ def notes(design: Any, cam: DiscCam) -> list[str]:
     words = _WORDS[cam_sheets.touching(cam)]
     wall = cam_sheets.outer_wall(design)
     made = f"the profile is {words.made}"
+    if getattr(design.spec, "arcs", None) is not None:
+        made = f"the profile is made of arcs: {_arcs(design.contour)}"
     if wall is not None:
         radii = f"R{wall.min_radius:.3f} to {wall.max_radius:.3f}"
         made = f"groove between two envelopes of the roller, the outer wall {radii}"
@@ -365,6 +368,15 @@ def notes(design: Any, cam: DiscCam) -> list[str]:
         _toleranced(sized, [*_errors(design)]),
         f"Table: radius of the {words.radius} [mm] over the angle on the cam [deg], counter-clockwise from the mark.",
     ]  # fmt: skip
+
+
+def _arcs(contour: Contour) -> str:
+    """The arcs of a profile that the file gives by them."""
+    if contour.flank is None:
+        return f"R{contour.nose:g}, its centre {contour.distance:.4f} mm from the axis"
+    flank = "straight flanks" if math.isinf(contour.flank) else f"flanks R{contour.flank:.4f}"
+    nose = f"nose R{contour.nose:.4f}, its centre {contour.distance:.4f} mm from the axis"
+    return f"base circle R{contour.base:g}, {flank}, {nose}, action {2.0 * math.degrees(contour.ascent):.4f} deg"
 
 
 def _toleranced(sized: Sequence[str], errors: Sequence[str]) -> str:

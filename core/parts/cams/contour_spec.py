@@ -1,0 +1,105 @@
+"""A disc cam that is given by the arcs of its profile, as a key of design files."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Length, SignedLength, Spec
+
+ActionAngle = Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})]
+ArcAngle = Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})]
+
+
+def _refused(key: str, message: str) -> PydanticCustomError:
+    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
+
+
+class _Lobe(Spec):
+    """Base circle and nose, with one flank on either side."""
+
+    wanted: ClassVar[int]
+    sizes: ClassVar[tuple[str, ...]] = ("nose_radius", "nose_distance", "lift", "action_angle")
+
+    base_radius: Length = Field(description="radius of the base circle")
+    nose_radius: Length | None = Field(None, description="radius of the nose")
+    nose_distance: Length | None = Field(None, description="cam axis to the centre of the nose")
+    lift: Length | None = Field(None, description="by how much the nose stands out of the base circle")
+    action_angle: ActionAngle | None = Field(
+        None, description="from the start of the rise to the end of the return: twice the angle of ascent"
+    )
+
+    def given(self) -> dict[str, float]:
+        """The sizes that the file gives."""
+        return {name: value for name in self.sizes if (value := getattr(self, name)) is not None}
+
+    @model_validator(mode="after")
+    def _as_many(self) -> Self:
+        given = [*self.given()]
+        if len(given) != self.wanted:
+            names = f"{', '.join(self.sizes[:-1])} and {self.sizes[-1]}"
+            count = {2: "two", 3: "three"}[self.wanted]
+            missing = len(given) < self.wanted
+            message = f"sizes of the profile: {len(given)} of {names} (required {self.wanted})"
+            message += f"\n{'give' if missing else 'keep'} {count} of them, the others follow"
+            raise _refused("type" if missing else given[-1], message)
+        return self
+
+
+class TangentProfile(_Lobe):
+    """Flanks that are straight."""
+
+    wanted = 2
+
+    type: Literal["tangent"] = Field(description="shape of the flanks")
+
+
+class CircularArcProfile(_Lobe):
+    """Flanks that are arcs of circles."""
+
+    wanted = 3
+    sizes = (*_Lobe.sizes, "flank_radius", "flank_angle")
+
+    type: Literal["circular-arc"] = Field(description="shape of the flanks")
+    flank_radius: SignedLength | None = Field(None, description="radius of the flanks; negative: concave")
+    flank_angle: ArcAngle | None = Field(
+        None, description="with action_angle: angle of a flank's arc, under a flat face the cam angle on it"
+    )
+
+    @model_validator(mode="after")
+    def _of_action(self) -> Self:
+        if self.flank_angle is not None:
+            if self.action_angle is None:
+                raise _refused("flank_angle", "flank_angle goes with action_angle\ngive action_angle")
+            if self.flank_angle >= 0.5 * self.action_angle:
+                most = 0.5 * self.action_angle
+                message = f"flank_angle: {self.flank_angle:g} deg (limit < {most:g} deg, half the action_angle)"
+                raise _refused("flank_angle", f"{message}\nset profile.flank_angle below {most:g} deg")
+        if self.flank_radius == 0.0:
+            raise _refused("flank_radius", "flank_radius: 0 mm (any other)\nfor straight flanks set type: tangent")
+        return self
+
+
+class EccentricProfile(Spec):
+    """A circular disc whose centre is not its axis."""
+
+    type: Literal["eccentric"] = Field(description="shape of the flanks")
+    radius: Length = Field(description="radius of the disc")
+    eccentricity: Length = Field(description="cam axis to the centre of the disc")
+
+    @model_validator(mode="after")
+    def _around(self) -> Self:
+        if self.eccentricity >= self.radius:
+            message = f"eccentricity: {self.eccentricity:g} mm (limit < {self.radius:g} mm, radius)"
+            raise _refused("eccentricity", f"{message}\nset profile.eccentricity below {self.radius:g} mm")
+        return self
+
+    @property
+    def base_radius(self) -> float:
+        """Smallest radius [mm]."""
+        return self.radius - self.eccentricity
+
+
+CamProfile = Annotated[TangentProfile | CircularArcProfile | EccentricProfile, Field(discriminator="type")]

@@ -1,0 +1,368 @@
+"""Cams of arcs against outlines on which a follower is let down, formulas of textbooks, and roots with 30 digits."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+from typing import Any
+
+import factory
+import mpmath
+import numpy as np
+import pytest
+from pydantic import TypeAdapter, ValidationError
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams.contour import Contour, contour, contour_motion
+from gearlink.core.parts.cams.contour_spec import CamProfile
+
+TANGENT = {"type": "tangent", "base_radius": 30, "lift": 17.5, "action_angle": 150}
+ARCS = {"type": "circular-arc", "base_radius": 30, "nose_radius": 5, "lift": 20, "action_angle": 150}
+HOLLOW = {"type": "circular-arc", "base_radius": 30, "nose_radius": 10, "lift": 15, "flank_radius": -150}
+DISC = {"type": "eccentric", "radius": 37.5, "eccentricity": 25}
+ROLLER = {"type": "translating-roller", "roller_radius": 17.5}
+READ: Any = TypeAdapter(CamProfile)
+
+
+def cam(profile: dict[str, Any], follower: dict[str, Any], command: str = "cam", **keys: Any) -> Any:
+    data = {"kind": "disc-cam", "name": "arcs", "speed": 600, "profile": profile, "follower": follower}
+    return factory.design({**data, **keys}, command=command)
+
+
+def sizes(**given: Any) -> Contour:
+    return contour(READ.validate_python(given))
+
+
+def outline(found: Contour, count: int = 40_000) -> np.ndarray:
+    """The profile by the centres of its arcs, the nose on +x: where its rays meet them, the farthest of all within."""
+    ray = np.exp(1j * np.linspace(-math.pi, math.pi, count, endpoint=False))
+
+    def leaving(center: complex, radius: float) -> np.ndarray:
+        along = (ray * np.conj(center)).real
+        square = radius**2 - abs(center) ** 2 + along**2
+        return np.where(square > 0.0, along + np.sqrt(np.maximum(square, 0.0)), -np.inf)
+
+    reach = np.maximum(found.base, leaving(complex(found.distance), found.nose))
+    if found.flank is None:
+        return ray * leaving(complex(found.distance), found.nose)
+    for side in (1.0, -1.0):
+        start = np.exp(1j * side * found.ascent)  # where this flank leaves the base circle
+        center = -(found.flank - found.base) * start
+        if math.isinf(found.flank):
+            ends = found.base * start, complex(found.distance) + found.nose * start
+            normal = start
+            reach_of = found.base / np.where((ray * np.conj(normal)).real > 0.0, (ray * np.conj(normal)).real, np.nan)
+        else:
+            way = (found.distance - center) * math.copysign(1.0, found.flank)
+            ends = found.base * start, complex(found.distance) + found.nose * way / abs(way)
+            along = (ray * np.conj(center)).real
+            square = np.maximum(found.flank**2 - abs(center) ** 2 + along**2, 0.0)
+            reach_of = along + math.copysign(1.0, found.flank) * np.sqrt(square)
+        low, high = sorted(np.angle(end) for end in ends)
+        inside = (np.angle(ray) >= low) & (np.angle(ray) <= high)
+        reach = np.where(inside, reach_of, reach)
+    return ray * reach
+
+
+def let_down(points: np.ndarray, phi: float, sense: int, found: Contour, follower: dict[str, Any]) -> float:
+    """Height of a follower that travels along +y and stands on the outline at a cam angle."""
+    e = sense * follower.get("offset", 0.0)
+    if follower["type"].endswith("flat"):
+        lead = 0.0
+    else:
+        prime = found.base + follower.get("roller_radius", 0.0)
+        lead = math.asin(e / prime)
+    # at cam angle 0 the flank begins below the follower; a cam that turns clockwise is the mirror image
+    z = points * np.exp(-1j * (found.ascent + lead - phi)) * 1j
+    if follower["type"].endswith("flat"):
+        return float(z.imag.max())
+    z = z - e
+    if follower["type"].endswith("edge"):
+        ahead = np.roll(z, -1)
+        cut = (z.real <= 0.0) != (ahead.real <= 0.0)
+        share = z.real[cut] / (z.real[cut] - ahead.real[cut])
+        return float((z.imag[cut] + share * (ahead.imag[cut] - z.imag[cut])).max())
+    near = z[np.abs(z.real) < follower["roller_radius"]]
+    return float((near.imag + np.sqrt(follower["roller_radius"] ** 2 - near.real**2)).max())
+
+
+EDGE = {"type": "translating-knife-edge", "offset": 4.0}
+FLAT = {"type": "translating-flat"}
+PAIRS = [
+    (TANGENT, {**ROLLER, "offset": 5.0}),
+    (ARCS, FLAT),
+    (ARCS, {**ROLLER, "offset": -6.0}),
+    (HOLLOW, ROLLER),
+    (DISC, FLAT),
+    (DISC, {**ROLLER, "offset": 3.0}),
+    (TANGENT, EDGE),
+    (HOLLOW, {**EDGE, "offset": -3.0}),
+]
+
+
+@pytest.mark.quick(3)
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize(("profile", "follower"), PAIRS)
+def test_the_lift_is_that_of_a_follower_that_is_let_down_on_the_outline(
+    profile: dict[str, Any], follower: dict[str, Any], sense: int
+) -> None:
+    """The chords of 40,000 points are 75 mm (2 pi/40,000)^2/8 = 2e-7 mm off a curve, more at the ends of the arcs."""
+    design = cam(profile, follower, cam={"sense": sense})
+    found, points = design.contour, outline(design.contour)
+    start = let_down(points, 0.0, sense, found, follower)
+    for degrees in (*range(3, 360, 12), 359):
+        phi = math.radians(degrees)
+        lift = float(design.cams.motion.evaluate(np.array([phi]), 0)[0][0])
+        assert lift == pytest.approx(let_down(points, phi, sense, found, follower) - start, abs=1e-5), degrees
+
+
+@pytest.mark.parametrize(("profile", "follower"), PAIRS)
+def test_the_profile_of_the_motion_is_the_outline(profile: dict[str, Any], follower: dict[str, Any]) -> None:
+    design = cam(profile, follower)
+    table, found = design.table("main_cam", samples=3600), design.contour
+    z = table["x"] + 1j * table["y"]
+    flat = follower["type"].endswith("flat")
+    prime = found.base + follower.get("roller_radius", 0.0)
+    lead = 0.0 if flat else math.asin(follower.get("offset", 0.0) / prime)
+    nose = 1j * np.exp(-1j * (found.ascent + lead))
+    wanted = outline(found)
+    radius = np.interp(np.angle(z / nose), np.angle(wanted), np.abs(wanted), period=2.0 * math.pi)
+    assert np.abs(z) == pytest.approx(radius, abs=1e-5)
+
+
+class Place:
+    """Height of a follower on an arc about a centre, or on a line with a normal, by the root of its distance."""
+
+    def __init__(self, follower: dict[str, Any], arc: tuple[Any, Any, Any], near: float) -> None:
+        self.flat, self.near = follower["type"].endswith("flat"), near
+        self.reach, self.e = follower.get("roller_radius", 0.0), follower.get("offset", 0.0)
+        self.normal, self.center, self.radius = arc
+
+    def __call__(self, phi: Any) -> Any:
+        if self.flat:
+            return mpmath.re(self.center * mpmath.expj(-phi)) + self.radius
+        return mpmath.findroot(lambda y: self.off(mpmath.expj(phi) * (y + 1j * self.e)), self.near)
+
+    def off(self, z: Any) -> Any:
+        if self.center is None:
+            return mpmath.re(z / self.normal) - self.radius - self.reach
+        return abs(z - self.center) - abs(self.radius + self.reach)
+
+
+def arc_of(found: Contour, lead: Any, name: str, behind: bool) -> tuple[Any, Any, Any]:
+    """Normal and distance of a straight flank, or centre and radius."""
+    if name == "nose" or found.flank is None:
+        return None, found.distance * mpmath.expj(found.ascent + lead), found.nose
+    normal = mpmath.expj(lead + (2 * found.ascent if behind else 0))
+    if math.isinf(found.flank):
+        return normal, None, found.base
+    return None, (found.base - found.flank) * normal, found.flank
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(("profile", "follower"), PAIRS)
+def test_derivatives_are_those_of_the_place_by_30_digits(profile: dict[str, Any], follower: dict[str, Any]) -> None:
+    """The place is the root of a distance from the centre of the arc, or from the line, found for each cam angle."""
+    design = cam(profile, follower)
+    motion, found = design.cams.motion, design.contour
+    flat = follower["type"].endswith("flat")
+    start = found.base if flat else design.cams.start_height
+    with mpmath.workdps(30):
+        prime = found.base + follower.get("roller_radius", 0.0)
+        lead = 0 if flat else mpmath.asin(mpmath.mpf(follower.get("offset", 0.0)) / prime)
+        for piece in motion.pieces:
+            if piece.name == "dwell":
+                continue
+            arc = arc_of(found, lead, piece.name, piece.start > found.ascent)
+            for share in (0.1, 0.6, 0.93):
+                phi = piece.start + share * piece.width
+                values = [float(each[0]) for each in motion.evaluate(np.array([phi]), 3)]
+                place = Place(follower, arc, values[0] + start)
+                assert float(place(mpmath.mpf(phi))) == pytest.approx(values[0] + start, rel=1e-12)
+                for order in (1, 2, 3):
+                    wanted = float(mpmath.diff(place, mpmath.mpf(phi), order))
+                    assert values[order] == pytest.approx(wanted, rel=1e-9, abs=1e-9), (piece.name, order)
+
+
+def test_a_tangent_cam_has_the_formulas_of_the_textbook() -> None:
+    """Khurmi and Gupta: x, v and a on the flank, the nose as a slider-crank with l = r_3 + r_2 and r = OQ."""
+    design = cam(TANGENT, ROLLER)
+    motion, found = design.cams.motion, design.contour
+    whole, phi = 47.5, np.radians(np.array([0.5, 10.0, 25.0]))
+    x, v, a = motion.evaluate(phi, 2)
+    assert x == pytest.approx(whole * (1.0 - np.cos(phi)) / np.cos(phi), rel=1e-11)
+    assert v == pytest.approx(whole * np.sin(phi) / np.cos(phi) ** 2, rel=1e-12)
+    assert a == pytest.approx(whole * (2.0 - np.cos(phi) ** 2) / np.cos(phi) ** 3, rel=1e-12)
+    r, rod = found.distance, found.nose + 17.5
+    angle = np.radians(np.array([27.0, 50.0, 75.0, 110.0])) - found.ascent
+    x, _, a = motion.evaluate(angle + found.ascent, 2)
+    n = rod / r
+    root = n**2 - np.sin(angle) ** 2
+    assert x == pytest.approx(r * np.cos(angle) + r * np.sqrt(root) - whole, rel=1e-11)
+    bend = (np.cos(2.0 * angle) * n**2 + np.sin(angle) ** 4) / root**1.5
+    assert -a == pytest.approx(r * (np.cos(angle) + bend), rel=1e-11)
+
+
+def test_velocity_and_acceleration_stand_on_both_sides_of_each_change_of_contact() -> None:
+    design = cam(TANGENT, ROLLER)
+    table = design.table("arcs")
+    assert list(table["arc"]) == ["flank", "nose", "nose", "flank", "base circle"]
+    speed = 20.0 * math.pi
+    cosine = math.cos(math.atan2(design.contour.distance * math.sin(design.contour.ascent), 47.5))
+    joint = 47.5 * (2.0 - cosine**2) / cosine**3 * speed**2
+    apex = -design.contour.distance * (1.0 + design.contour.distance / (design.contour.nose + 17.5)) * speed**2
+    assert table["follower_acceleration_start"][0] == pytest.approx(47.5 * speed**2, rel=1e-12)
+    assert table["follower_acceleration_end"][0] == pytest.approx(joint, rel=1e-12)
+    assert table["follower_acceleration_end"][1] == pytest.approx(apex, rel=1e-12)
+    for name in ("velocity", "acceleration"):
+        mirrored = table[f"{name}_end"][3] * (-1.0 if name == "velocity" else 1.0)
+        assert mirrored == pytest.approx(table[f"{name}_start"][0], abs=1e-12)
+    steps = dict(design.cams.motion.steps(2))
+    assert max(steps.values()) == pytest.approx(table["acceleration_start"][3] - table["acceleration_end"][2], rel=1e-9)
+    assert design.raw("follower_acceleration_max") == pytest.approx(joint, rel=1e-12)
+    assert design.raw("follower_acceleration_min") == pytest.approx(apex, rel=1e-12)
+    (step,) = design.check("acceleration-step")
+    assert (step.status, "profile" in step.advice) == ("warn", True)
+    assert "velocity_start" not in cam(TANGENT, ROLLER, speed=None).table("arcs").columns[9:]
+
+
+def drawn(seed: int) -> tuple[float, dict[str, float]]:
+    """A random lobe with concave, straight or convex flanks by its triangle: base radius, all its other sizes."""
+    dice = random.Random(seed)
+    base, kind = dice.uniform(20.0, 40.0), seed % 3
+    nose, distance = base * dice.uniform(0.2, 0.9), base * dice.uniform(0.9, 1.6)
+    found = {"nose_radius": nose, "nose_distance": distance, "lift": distance + nose - base}
+    straight = math.degrees(math.acos((base - nose) / distance))
+    if kind == 0:
+        return base, {**found, "action_angle": 2.0 * straight}
+    flank = dice.uniform(2.0, 6.0) * base if kind == 1 else -dice.uniform(3.0, 8.0) * base
+    # law of cosines with the signed sides
+    p, q = flank - base, flank - nose
+    ascent = math.degrees(math.acos((q * q - p * p - distance**2) / (2.0 * p * distance)))
+    found |= {"flank_radius": flank, "action_angle": 2.0 * ascent}
+    if kind == 1:
+        found["flank_angle"] = math.degrees(math.acos((p * p + q * q - distance**2) / (2.0 * p * q)))
+    return base, found
+
+
+@pytest.mark.quick(9)
+@pytest.mark.parametrize("seed", range(60))
+def test_the_sizes_follow_from_any_of_them_that_are_enough(seed: int) -> None:
+    base, every = drawn(seed)
+    count, name = (2, "tangent") if seed % 3 == 0 else (3, "circular-arc")
+    tried = 0
+    for chosen in itertools.combinations(every, count):
+        if {"nose_radius", "nose_distance", "lift"} <= set(chosen):
+            continue  # they say the same twice
+        if "flank_angle" in chosen and "action_angle" not in chosen:
+            continue
+        given = {"type": name, "base_radius": base, **{each: every[each] for each in chosen}}
+        if seed % 3 == 2 and set(chosen) == {"nose_radius", "flank_radius", "action_angle"}:
+            with pytest.raises(NoSolution, match="two noses"):
+                sizes(**given)
+            continue
+        found = sizes(**given)
+        wanted = every["nose_radius"], every["nose_distance"], math.radians(0.5 * every["action_angle"])
+        assert (found.nose, found.distance, found.ascent) == pytest.approx(wanted, rel=1e-8), chosen
+        assert found.flank == pytest.approx(every.get("flank_radius", math.inf), rel=1e-7), chosen
+        tried += 1
+    assert tried >= {2: 5, 3: 8}[count]
+
+
+def test_flanks_touch_base_circle_and_nose() -> None:
+    for profile in (ARCS, HOLLOW):
+        found = contour(READ.validate_python(profile))
+        assert found.flank is not None
+        side = math.copysign(1.0, found.flank)
+        assert side * abs(found.flank_center) == pytest.approx(found.flank - found.base, rel=1e-12)
+        assert side * abs(found.nose_center - found.flank_center) == pytest.approx(found.flank - found.nose, rel=1e-12)
+
+
+def test_a_disc_lifts_its_follower_off_at_the_speed_of_the_equilibrium() -> None:
+    """At the highest place the spring and the weight of 2.3 kg give (45 + 3.5 50 + 2.3 9.81) N = m e w^2."""
+    follower = {**FLAT, "mass": 2.3}
+    design = cam(DISC, follower, spring={"preload": 45, "rate": 3.5}, loads={"gravity": [0, -9.81]})
+    force = 45.0 + 3.5 * 50.0 + 2.3 * 9.81
+    assert design.lift_off_speed == pytest.approx(math.sqrt(force / (2.3 * 0.025)) * 30.0 / math.pi, rel=1e-12)
+    phi = np.radians(np.arange(0.0, 360.0, 17.0))
+    assert design.cams.motion.evaluate(phi, 0)[0] == pytest.approx(25.0 * (1.0 - np.cos(phi)), abs=1e-13)
+
+
+def test_everything_of_a_cam_follows_from_its_arcs() -> None:
+    body = {"shaft_radius": 12, "cutter_radius": 40}
+    design = cam(HOLLOW, {**ROLLER, "mass": 0.5}, cam=body, spring={"least_force": 20, "rate": 12}, servo={"rows": 73})
+    assert design.min_concave_radius == pytest.approx(150.0, rel=1e-9)
+    assert (design.base_radius, design.prime_radius) == (30.0, 47.5)
+    assert design.min_curvature_radius == pytest.approx(27.5, rel=1e-9)  # that of the nose and the roller
+    assert design.max_radius == pytest.approx(45.0, rel=1e-12)
+    assert design.flank_radius == -150.0
+    for name in ("arcs", "segments", "main_cam", "cutter", "radius", "servo"):
+        assert design.table(name).length > 0
+    radii = design.table("main_cam", samples=720)["curvature_radius"]
+    for wanted in (27.5, -132.5, 47.5):
+        assert (np.abs(radii / wanted - 1.0) < 1e-9).sum() > 10
+    assert {check.status for check in design.report("cam").checks} <= {"pass", "warn", "fail"}
+
+
+@pytest.mark.parametrize(
+    ("profile", "follower", "words"),
+    [
+        (TANGENT, FLAT, "a flat face needs convex flanks, these are straight"),
+        (HOLLOW, FLAT, r"concave \(-150 mm\)"),
+        ({**HOLLOW, "flank_radius": -17}, ROLLER, r"roller_radius: 17.5 mm \(limit < 17 mm"),
+        ({**TANGENT, "lift": 200}, ROLLER, r"nose_radius of the profile: -39.\d+ mm \(limit > 0 mm\)"),
+        ({"type": "tangent", "base_radius": 30, "nose_radius": 45, "lift": 10}, ROLLER, "no straight flank joins"),
+        ({"type": "tangent", "base_radius": 30, "nose_radius": 10, "action_angle": 190}, ROLLER, "no straight flank"),
+        ({**ARCS, "lift": 20, "flank_radius": 31, "action_angle": None}, FLAT, "no flank of 31 mm joins"),
+    ],
+)
+def test_what_cannot_be_is_refused(profile: dict[str, Any], follower: dict[str, Any], words: str) -> None:
+    with pytest.raises(NoSolution, match=words):
+        _ = cam(profile, follower).cams.motion
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"profile": {**TANGENT, "nose_radius": 20}}, r"3 of nose_radius, nose_distance, lift and action_angle"),
+        ({"profile": {**ARCS, "lift": None}}, r"\(required 3\)\ngive three of them"),
+        ({"profile": {**ARCS, "lift": None, "flank_angle": 80}}, r"flank_angle: 80 deg \(limit < 75 deg"),
+        ({"profile": {**DISC, "eccentricity": 40}}, r"eccentricity: 40 mm \(limit < 37.5 mm"),
+        ({"motion": [{"to": 360}]}, "profile makes the motion"),
+        ({"initial_lift": 2}, "begins at lift 0"),
+        ({"cam": {"prime_radius": 50}}, "profile has the radius of the cam"),
+        ({"cam": {"size": {"pressure_angle": 30}}}, "omit cam.size"),
+        (
+            {"follower": {"type": "oscillating-roller", "roller_radius": 10, "arm": 60, "center_distance": 90}},
+            "goes with a follower that slides",
+        ),
+        ({"profile": None}, "the key 'motion' is missing"),
+        ({"follower": {**ROLLER, "offset": 48}}, r"limit < 47.5 mm, profile.base_radius"),
+        ({"follower": {**ROLLER, "offset": "best"}}, "offset: best goes with cam.size"),
+    ],
+)
+def test_keys_that_do_not_go_together_are_refused(keys: dict[str, Any], words: str) -> None:
+    data = {"kind": "disc-cam", "name": "arcs", "profile": TANGENT, "follower": ROLLER}
+    with pytest.raises(ValidationError, match=words):
+        factory.design({**data, **keys})
+
+
+def test_a_follower_jams_where_its_pressure_angle_reaches_90_deg() -> None:
+    """On a concave flank alone: the tangents of a convex cam are no nearer to its axis than the base circle."""
+    concave = sizes(type="circular-arc", base_radius=30.0, nose_radius=5.0, lift=40.0, flank_radius=-60.0)
+    beyond = sizes(type="circular-arc", base_radius=30.0, nose_radius=5.0, lift=40.0, flank_radius=-40.0)
+    for found, offset in ((concave, -20.0), (concave, 20.0), (beyond, 0.0)):
+        with pytest.raises(NoSolution, match="reaches 90 deg on a concave flank"):
+            contour_motion(found, 3.0, offset)
+    straight = sizes(type="tangent", base_radius=30.0, nose_radius=3.0, lift=60.0)
+    for found, offset in ((concave, 0.0), (straight, -32.9), (straight, 32.9)):
+        motion = contour_motion(found, 3.0, offset)
+        assert np.isfinite(motion.evaluate(np.linspace(0.0, 6.28, 500), 3)).all()
+
+
+def test_two_noses_that_touch_one_flank_are_told() -> None:
+    base, every = drawn(23)
+    given = {name: every[name] for name in ("nose_radius", "flank_radius", "action_angle")}
+    with pytest.raises(NoSolution, match=r"two noses of 33.26 mm touch this flank, 58.7 and 29.87 mm"):
+        sizes(type="circular-arc", base_radius=base, **given)
