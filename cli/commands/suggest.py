@@ -25,7 +25,7 @@ from gearlink.cli.render.markdown_report import markdown_table
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.trials import Bench
 from gearlink.core.base.report import Check, Remedy, Report
-from gearlink.core.base.spec_paths import changed, value_at
+from gearlink.core.base.spec_paths import changed, given_at
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
@@ -97,7 +97,7 @@ def repair(kind: Kind, command: str, spec: Any, *, strict: bool = False) -> tupl
         if fresh is None:
             break
         remedy, why, repaired = fresh
-        changes += [Change(path, value_at(spec, path), value, why) for path, value in remedy]
+        changes += [Change(path, given_at(spec, path), value, why) for path, value in remedy]
         seen.add(repaired.model_dump_json())
         spec = repaired
     return given, None

@@ -68,11 +68,16 @@ def number_at(spec: Any, path: str) -> float | None:
         >>> number_at(spec, "teeth[1]"), number_at(spec, "cam.base_radius")
         (40, None)
     """
+    value = given_at(spec, path)
+    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+
+
+def given_at(spec: Any, path: str) -> Any:
+    """The value that a path leads to; None where it leads nowhere, as into a section that the file leaves out."""
     try:
-        value = value_at(spec, path)
+        return value_at(spec, path)
     except (AttributeError, TypeError, LookupError):
         return None
-    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
 
 def numbers_at(spec: Any, path: str) -> Iterator[str]:

@@ -13,6 +13,7 @@ from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign
 from gearlink.core.mechanism.joints import NEWTON_METER
+from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign, contact_table
 from gearlink.core.studies.loads.contact import positive_drive, roller_on
 from gearlink.core.studies.loads.design import Wanted, loads_outline
@@ -217,6 +218,15 @@ class FollowerCamLoads(_Loads):
     @property
     def _lever(self) -> float:
         return 1.0 if self.spec.oscillates else 1e-3
+
+    @property
+    def lacking_preload(self) -> float | None:  # type: ignore[override]
+        """What its inertia and the forces on it pull it off with [N, or N m]; None with a spring."""
+        if self.spec.spring is not None or self.on_two_sides:
+            return None
+        joints = self.design.cams.motion.joints
+        pull = maximum_over(lambda phi: -self.closing.force(phi), joints=joints)
+        return max(pull.value, 0.0)
 
     @property
     def closing_remedy(self) -> str:

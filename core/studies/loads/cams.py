@@ -151,7 +151,7 @@ class CamLoadsDesign(LoadsDesign):
 
     def called(self, name: str) -> str:
         """What messages call a roller."""
-        return f"{name} roller"
+        return f"{name} roller" if len(self.own_rollers) > 1 else "roller"
 
     @property
     def closing_remedy(self) -> str:
@@ -392,10 +392,10 @@ class CamLoadsDesign(LoadsDesign):
         limit = self.section.roller.friction
         for name, share in zip(self.own_rollers, found, strict=True):
             if share is None:
-                what, fix = f"the {name} roller leaves its cam, where nothing drives it round", "press it harder"
+                what, fix = f"the {self.called(name)} leaves its cam, where nothing drives it round", "press it harder"
                 yield ROLLER_SKID.check("warn", what, None, limit, fix=fix)
                 continue
-            what = f"friction that drives the {name} roller round, over its contact force"
+            what = f"friction that drives the {self.called(name)} round, over its contact force"
             status: Status = "warn" if share > limit else "pass"
             yield ROLLER_SKID.check(status, what, share, limit, fix="take a lighter roller, or press it harder")
 

@@ -16,6 +16,7 @@ from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import Check, Remedy, without_noise
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.spec_paths import number_at
+from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.mechanism.joints import Connection, Guide, Pin, Toothed
 from gearlink.core.numerics.arrays import BLOCK, Reals, turn_degrees
 from gearlink.core.studies.loads import checks, tables
@@ -783,6 +784,9 @@ class LoadsDesign(Design):
             self._require_joints("backlash", self.section.backlash, *Toothed)
         return {name: MeshLoad(self, name) for name in self.meshes if self.has(name)}
 
+    lacking_preload: float | None = None
+    """Of a follower without a spring: the minimum preload that holds it on its cam [N, or N m]."""
+
     def candidates(self, check: str, /) -> Iterable[Remedy]:
         """Remedies from closed forms."""
 
@@ -898,9 +902,9 @@ def _stiffer(design: LoadsDesign) -> Iterator[Remedy]:
     """A higher natural frequency, by as much as the speed is too high; else a lower speed."""
     vibration, limit = design.section.vibration, design.vibrating.speed_limit
     key, power = ("frequency", 1.0) if vibration.frequency is not None else ("stiffness", 2.0)
-    ratio = abs(design.speed) / limit if limit else 1.1
+    given, ratio = torsional_stiffness(getattr(vibration, key)), abs(design.speed) / limit if limit else 1.1
     for more in (1.02, 1.1, 1.3, 1.6, 2.0, 3.0):
-        yield ((f"loads.vibration.{key}", at_least(getattr(vibration, key) * (ratio * more) ** power, 0.1)),)
+        yield ((f"loads.vibration.{key}", at_least(given * (ratio * more) ** power, 0.1)),)
 
 
 def _slower(design: LoadsDesign) -> Iterator[Remedy]:
@@ -960,6 +964,9 @@ def _closed_rollers(design: LoadsDesign) -> Iterator[Remedy]:
         old = number_at(design.spec, key)
         if old is not None:
             yield from (((key, at_least(old * more, step)),) for more in (1.1, 1.25, 1.5, 2.0, 3.0, 5.0))
+    lacking = design.lacking_preload
+    if lacking is not None:
+        yield from ((("spring.preload", at_least(lacking * more)),) for more in (1.1, 1.25, 1.5, 2.0))
     old = number_at(design.spec, "unloader.reserve")
     if old is not None:
         yield from ((("unloader.reserve", at_least(old + more, 0.01)),) for more in (0.1, 0.25, 0.5, 1.0, 2.0))

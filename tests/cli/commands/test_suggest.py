@@ -361,3 +361,14 @@ def test_strict_repairs_warnings_as_well(gearlink: Any, tmp_path: Path) -> None:
 def test_of_a_key_that_changes_twice_the_last_value_counts() -> None:
     changes = [Change("teeth[0]", 10, 12, "a"), Change("teeth[0]", 12, 17, "b"), Change("x y", 1.0, None, "c")]
     assert overrides(changes) == "--set 'teeth[0]=17' --set 'x y=null'"
+
+
+def test_a_section_that_the_file_leaves_out_is_suggested(gearlink: Any, tmp_path: Path) -> None:
+    file = tmp_path / "cam.yaml"
+    file.write_text(
+        "kind: disc-cam\nspeed: 600\nfollower: {type: translating-flat, mass: 2}\ncam: {base_radius: 40}\n"
+        "motion: [{to: 120, lift: 10}, {to: 180}, {to: 300, lift: 0}, {to: 360}]\nloads: {roller: {width: 15}}\n"
+    )
+    ended = gearlink("loads", file, "--suggest")
+    assert ended.status == 0
+    assert "spring.preload: not given -> " in ended.out

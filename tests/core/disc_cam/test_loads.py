@@ -181,3 +181,16 @@ def test_a_spring_that_does_not_reach_holds_at_no_speed() -> None:
     design = factory.design({**SLIDE, "motion": lowered, "loads": None}, command="cam")
     assert design.lift_off_speed == 0.0
     assert [check.status for check in design.check("lift-off")] == ["fail"]
+
+
+@pytest.mark.parametrize("follower", [FLAT, {**SLIDE["follower"], "offset": 0}], ids=["flat", "roller"])
+def test_a_follower_without_a_spring_is_told_a_preload_that_holds_it(follower: dict[str, Any]) -> None:
+    cam = {"base_radius": 40} if follower is FLAT else SLIDE["cam"]
+    given = {"follower": follower, "cam": cam, "loads": {"roller": {"width": 15}}, "speed": 600}
+    design = loads(**given, spring=None)
+    (found,) = design.check("contact-loss")
+    assert found.status == "fail"
+    ((_, preload),) = next(iter(design.candidates("contact-loss")))
+    for share, holds in ((1.0, True), (1.0 / 1.2, False)):
+        (after,) = loads(**given, spring={"preload": share * preload}).check("contact-loss")
+        assert (after.value > 0.0) is holds
