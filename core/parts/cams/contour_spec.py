@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, SignedLength, Spec
+from gearlink.core.base.spec import Length, SignedLength, Spec, also
 
 ActionAngle = Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})]
 ArcAngle = Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})]
@@ -28,7 +28,9 @@ class _Lobe(Spec):
     nose_distance: Length | None = Field(None, description="cam axis to the centre of the nose")
     lift: Length | None = Field(None, description="by how much the nose stands out of the base circle")
     action_angle: ActionAngle | None = Field(
-        None, description="from the start of the rise to the end of the return: twice the angle of ascent"
+        None,
+        description="from the start of the rise to the end of the return: twice the angle of ascent",
+        json_schema_extra={"unit": "deg", **also("angle_of_action")},
     )
 
     def given(self) -> dict[str, float]:
