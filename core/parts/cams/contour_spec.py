@@ -71,6 +71,13 @@ class CircularArcProfile(_Lobe):
     )
 
     @model_validator(mode="after")
+    def _of_flanks(self) -> Self:
+        if set(self.given()) == {"nose_radius", "nose_distance", "lift"}:
+            message = "nose_radius, nose_distance and lift tell nothing of the flanks: two of them give the third"
+            raise _refused("lift", f"{message}\ngive action_angle or flank_radius instead of lift")
+        return self
+
+    @model_validator(mode="after")
     def _of_action(self) -> Self:
         if self.flank_angle is not None:
             if self.action_angle is None:

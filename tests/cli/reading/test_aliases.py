@@ -75,8 +75,17 @@ def test_the_keys_with_aliases() -> None:
         ("tip_shortening", "tip_alteration"),
         ("handover_place", "handover_position"),
         ("run_out", "runout"),
+        ("action_angle", "angle_of_action"),
     }
-    assert {term for *_, term in CASES} == {term for *_, term in ALL}
+    assert {term for *_, term in CASES} == {term for *_, term in ALL} - {"angle_of_action"}
+
+
+def test_the_alias_of_a_section_that_no_example_has() -> None:
+    body = {"base_radius": 30, "lift": 17.5, "type": "tangent"}
+    data = {"kind": "disc-cam", "follower": {"type": "translating-roller", "roller_radius": 15}}
+    spec, _ = read(data | {"profile": {**body, "angle_of_action": 150}})
+    assert spec.profile.action_angle == 150.0
+    assert refused(data | {"profile": {**body, "angle_of_action": 150, "action_angle": 150}})
 
 
 @pytest.mark.quick(2)

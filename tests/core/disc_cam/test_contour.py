@@ -327,6 +327,10 @@ def test_what_cannot_be_is_refused(profile: dict[str, Any], follower: dict[str, 
     [
         ({"profile": {**TANGENT, "nose_radius": 20}}, r"3 of nose_radius, nose_distance, lift and action_angle"),
         ({"profile": {**ARCS, "lift": None}}, r"\(required 3\)\ngive three of them"),
+        (
+            {"profile": {"type": "circular-arc", "base_radius": 20, "nose_radius": 8, "nose_distance": 24, "lift": 12}},
+            r"nothing of the flanks: two of them give the third\ngive action_angle or flank_radius instead of lift",
+        ),
         ({"profile": {**ARCS, "lift": None, "flank_angle": 80}}, r"flank_angle: 80 deg \(limit < 75 deg"),
         ({"profile": {**DISC, "eccentricity": 40}}, r"eccentricity: 40 mm \(limit < 37.5 mm"),
         ({"motion": [{"to": 360}]}, "profile makes the motion"),
