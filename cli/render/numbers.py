@@ -12,6 +12,8 @@ from gearlink.core.base.report import Report, Table, without_noise
 _NOISE = 1e-12  # of the scale: what a root is left with, in a table of seven digits
 _ROUNDING = 1e-13  # of the largest of a column
 _HALF_WIDTH = "_pm"
+_UNBOUNDED = "curvature_radius"
+"""A length that grows without limit where a curve becomes straight: beside it no other is small."""
 _MOST_DIGITS = 7  # behind the point: an interval that is narrower is not shown
 
 
@@ -83,10 +85,13 @@ def scales(report: Report) -> dict[str, float]:
 
 
 def _values(report: Report) -> Iterator[tuple[str, Any]]:
-    yield from ((q.unit, q.value if isinstance(q.value, list) else [q.value]) for q in report.quantities)
+    for q in report.quantities:
+        if not q.name.endswith(_UNBOUNDED):
+            yield q.unit, q.value if isinstance(q.value, list) else [q.value]
     yield from ((check.unit, (check.value, check.limit)) for check in report.checks)
     for table in report.tables:
-        yield from zip(table.units, table.data, strict=True)
+        columns = zip(table.columns, table.units, table.data, strict=True)
+        yield from ((unit, data) for name, unit, data in columns if not name.endswith(_UNBOUNDED))
 
 
 def quiet(value: object, scale: float) -> object:
@@ -124,7 +129,8 @@ def readable_rows(
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0, and a column
     that is rounding as a whole beside what its unit has elsewhere, `scale`. `digits` as in `drawn`."""
     noise = [
-        _noise(_largest(column), scale.get(unit, 0.0)) for unit, column in zip(table.units, table.data, strict=True)
+        _noise(0.0 if name.endswith(_UNBOUNDED) else _largest(column), scale.get(unit, 0.0))
+        for name, unit, column in zip(table.columns, table.units, table.data, strict=True)
     ]
     rows = table.thinned(step).each_row()
     cells = [[_quiet(x, level) for x, level in zip(row, noise, strict=True)] for row in rows]

@@ -18,6 +18,9 @@ from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import BLOCK, Mask, Points, Reals
 from gearlink.core.parts.cams.codes import LARGER
 
+_STRAIGHT = 1e-12
+"""Curvature times size: below it a curve is straight but for rounding, some ulp of |D2|/|D1|^2 times its size."""
+
 
 @dataclass(frozen=True, slots=True)
 class RollerPath:
@@ -51,9 +54,9 @@ class CamProfile:
 
     @property
     def curvature_radius(self) -> Reals:
-        """Radius of curvature of the pitch curve [mm], positive where convex, inf where it is straight."""
+        """Radius of curvature of the pitch curve [mm], positive where convex, inf where it is straight to rounding."""
         bend, straight = self.curvature, np.full(self.curvature.shape, math.inf)
-        inverse: Reals = np.divide(1.0, bend, out=straight, where=bend != 0.0)
+        inverse: Reals = np.divide(1.0, bend, out=straight, where=np.abs(bend) * np.abs(self.pitch) > _STRAIGHT)
         return inverse
 
 

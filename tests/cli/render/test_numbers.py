@@ -49,6 +49,21 @@ def test_each_unit_has_its_own_scale() -> None:
     assert scales(report) == {"mm": 200.0, "1": 1.0, "mm/s": 5000.0, "-": 0.0}
 
 
+def test_nothing_is_small_beside_the_radius_of_a_nearly_straight_curve() -> None:
+    table = Table("cam", ("curvature_radius", "x"), ("mm", "mm"), ([1e18, 25.0], [28.0, 2.5]))
+    found = Quantity("min_curvature_radius", 1e18, "mm", "", "")
+    report = Report("k", "n", "c", (Quantity("lift_max", 12.0, "mm", "", ""), found), (), (table,))
+    assert scales(report)["mm"] == 28.0
+    assert readable_rows(table, 1, scales(report)) == [["1e+18", "28"], ["25", "2.5"]]
+
+
+def test_all_results_of_a_cam_with_straight_flanks_are_shown(gearlink: Any, designs: Any) -> None:
+    page = gearlink("cam", designs / "tangent_cam.yaml", "--all").out
+    assert re.search(r"^lift_max .* 17\.500 +mm", page, re.MULTILINE)
+    shown = gearlink("cam", designs / "tangent_cam.yaml", "--table", "main_cam", "--format", "csv").out
+    assert {row.rsplit(",", 1)[1] for row in shown.splitlines()[2:20]} == {""}
+
+
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("command", "design"),
