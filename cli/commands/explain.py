@@ -288,6 +288,7 @@ def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
     from gearlink.cli.texts.written_design import choice, uncapitalised
 
+    found = False
     for key, kinds in known_keys(name.rpartition(".")[2]):
         section, dot, last = key.path.rpartition(".")
         if name not in (key.path, last, *key.also, *(f"{section}{dot}{term}" for term in key.also)):
@@ -298,7 +299,8 @@ def _keys(name: str) -> Iterator[Topic]:
         told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in the file"}
         title = f"key of a design file: {words or 'a section'}"
         yield Topic("key", key.path, title, {k: v for k, v in told.items() if v})
-    if "." in name:
+        found = True
+    if "." in name and not found:
         yield from _of_entries(name)
 
 
