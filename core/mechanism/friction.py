@@ -1,6 +1,7 @@
 """Friction in pins, guides and meshes, as a fixed point on the reactions; joint forces and what they rub.
 
-Pins: a couple mu r |F| against the relative turning; guides: mu |N| against the motion; meshes: a couple
+Pins: a couple mu r |F| against the relative turning; guides: mu |N| against the motion; faces and edges on cams: mu N
+against the sliding, at the contact; meshes: a couple
 (1 - eta) |F_t| r on the driven gear against its rolling, that is its turning against the link that carries the axes,
 which takes the opposite: so the driven gear gives eta of the power that the driving one puts in, in the carrier's
 frame. Which gear is driven follows from the signs of tooth force and rolling, row by row.
@@ -159,6 +160,7 @@ class Coefficients:
         pins, guides : float - coefficients; meshes : float - efficiency
         pin_radius : float [mm]
         joints : by name, instead of these
+        contacts : float - coefficient of what slides on a cam
     """
 
     pins: float
@@ -166,6 +168,7 @@ class Coefficients:
     meshes: float
     pin_radius: float
     joints: Mapping[str, float]
+    contacts: float = 0.0
 
     def scaled(self, share: float) -> Coefficients:
         """A share of all friction; what a mesh loses counts, not its efficiency."""
@@ -175,7 +178,12 @@ class Coefficients:
 
         joints = {name: of(value, lost=name.startswith(_TEETH)) for name, value in self.joints.items()}
         return replace(
-            self, pins=share * self.pins, guides=share * self.guides, meshes=of(self.meshes, lost=True), joints=joints
+            self,
+            pins=share * self.pins,
+            guides=share * self.guides,
+            meshes=of(self.meshes, lost=True),
+            joints=joints,
+            contacts=share * self.contacts,
         )
 
     def of(self, connection: Connection) -> float:
@@ -187,6 +195,8 @@ class Coefficients:
             return self.guides if own is None else own
         if isinstance(connection, Toothed):
             return 1.0 - (self.meshes if own is None else own)
+        if isinstance(connection, Contact) and connection.slides:
+            return self.contacts if own is None else own
         return 0.0
 
     def rubbing(self, mechanism: Mechanism) -> list[str]:
@@ -206,6 +216,10 @@ class Coefficients:
                 if each.first != FRAME:
                     acts.append(Act(each.first, direction * each.along, at, 0.0))
                 yield Unit(each.name, acts, share)
+            elif isinstance(each, Contact):
+                along = -direction * 1j * each.normal
+                acts = [Act(each.second, along, each.at, 0.0), Act(each.first, -along, each.at, 0.0)]
+                yield Unit(each.name, acts, share, np.ones(mechanism.rows))
             elif isinstance(each, Pin):
                 yield Unit(each.name, _against(each.second, each.first, direction), share)
             elif isinstance(each, Rack):
@@ -230,9 +244,15 @@ class Coefficients:
 
 
 def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Reals:
-    """Relative turning of a pin, travel of a guide [mm], rolling of a mesh; per input angle, or its derivative."""
+    """Relative turning of a pin, travel of a guide [mm], rolling of a mesh, sliding on a cam [mm]; per input angle, or
+    its derivative, of the sliding 0: what slides on a cam that turns never rests there but for an instant."""
     if isinstance(connection, Guide):
         return _travel(mechanism, connection, order)
+    if isinstance(connection, Contact):
+        if order > 1:
+            return np.zeros(mechanism.rows)
+        (sliding, _), (held, _) = (_rate(mechanism, on, connection.at) for on in (connection.second, connection.first))
+        return dot(1j * connection.normal, sliding - held)
     if isinstance(connection, Mesh):
         return rates(mechanism, connection.carrier, connection.first, order)
     return rates(mechanism, connection.first, connection.second, order)

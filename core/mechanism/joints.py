@@ -201,7 +201,8 @@ class Contact:
     Where it is negative a second roller carries it, if `back` gives that one's place and normal; the normal counts
     against its own force, so that the sign tells which roller carries. `curvature` is that of the pitch curve [1/mm],
     convex positive, where a motion away from the place that is meant asks for it. `shapes` gives what is drawn of it:
-    the outline of the cam, and that of roller or face, each in coordinates of its link [mm].
+    the outline of the cam, and that of roller or face, each in coordinates of its link [mm]. A face or an edge `slides`
+    on the cam; a roller rolls.
     """
 
     name: str
@@ -212,6 +213,7 @@ class Contact:
     back: tuple[Points, Points] | None = None
     curvature: Reals | float = 0.0
     shapes: Callable[[], tuple[Points, Points]] | None = field(default=None, compare=False)
+    slides: bool = False
 
     def sided(self, force: Reals) -> Contact:
         """The contact of the roller that carries at each row."""

@@ -95,14 +95,15 @@ def _contacts(cams: FollowerCams, phi: Reals, made: Mechanism) -> list[Contact]:
     """The contact that carries; of a conjugate pair one that pushes either way, of a groove one of both walls."""
     if cams.spec.is_flat:
         touch = cams.flat.touch(phi)
-        return [Contact("main", "cam", "follower", touch.point, touch.normal)]
+        return [Contact("main", "cam", "follower", touch.point, touch.normal, slides=True)]
     name = "roller main" if cams.spec.rolls else "edge"  # the loads know a roller by the first
     roller = made.once(name, lambda: roller_on(cams.main, phi))
     back: tuple[Points, Points] | None = None
     if cams.back is not None:
         other = made.once("roller return", lambda: roller_on(cams.back, phi))  # type: ignore[arg-type]
         back = other.position, -other.normal
-    return [Contact("main", "cam", "follower", roller.position, roller.normal, back, roller.curvature)]
+    slides = not cams.spec.rolls
+    return [Contact("main", "cam", "follower", roller.position, roller.normal, back, roller.curvature, slides=slides)]
 
 
 def _phases(cams: FollowerCams) -> tuple[tuple[str, float, float], ...]:

@@ -122,7 +122,7 @@ class _Places:
             at = self.jets.x[0][:, cam.carrier] * self.structure.size + touch * self.jets.e[0][:, cam.carrier]
         turned = np.asarray(normal * self.jets.e[0][:, cam.carrier])
         return Contact(cam.name, self.names[cam.cam], self.names[cam.follower], at, turned, None, curvature,
-                       lambda: cam.shapes(phase))  # fmt: skip
+                       lambda: cam.shapes(phase), slides=touch is not None)  # fmt: skip
 
     def train(self, driven: Driven, first: Driven) -> Coupling | Feed:
         """What moves a further drive with the first one."""

@@ -235,7 +235,8 @@ class LoadsDesign(Design):
             return None
         from gearlink.core.studies.loads.sources import coefficients_of
 
-        self._require_joints("friction.joints", given.joints, Pin, Guide, *Toothed)
+        rubbing = [c for c in self._connections if isinstance(c, (Pin, Guide, *Toothed)) or getattr(c, "slides", False)]
+        self._require_joints("friction.joints", given.joints, rubbing)
         return coefficients_of(given, self._connections)
 
     @property
@@ -248,9 +249,9 @@ class LoadsDesign(Design):
         """What joins the links."""
         return self.moving.at(np.zeros(1), 1).connections
 
-    def _require_joints(self, section: str, names: Iterable[str], *sorts: type) -> None:
-        """Refuse names of a section that no joint of some sorts in this design has."""
-        known = [c.name for c in self._connections if isinstance(c, sorts)]
+    def _require_joints(self, section: str, names: Iterable[str], joints: Iterable[Connection]) -> None:
+        """Refuse names of a section that none of some joints has."""
+        known = [joint.name for joint in joints]
         for name in names:
             if name not in known:
                 has = f"it has {', '.join(known)}" if known else "omit it"
@@ -753,7 +754,8 @@ class LoadsDesign(Design):
         from gearlink.core.studies.loads.joints import PinLoad
 
         bearings = self.section.bearings
-        self._require_joints("bearings", [name for name in bearings if name not in self.other_bearings], Pin)
+        pins = [joint for joint in self._connections if isinstance(joint, Pin)]
+        self._require_joints("bearings", [name for name in bearings if name not in self.other_bearings], pins)
         self._require_directions(bearings)
         return {name: PinLoad(self, name, bearings.get(name)) for name in self.pins if self.has(name)}
 
@@ -781,7 +783,8 @@ class LoadsDesign(Design):
         from gearlink.core.studies.loads.joints import MeshLoad
 
         if isinstance(self.section.backlash, dict):
-            self._require_joints("backlash", self.section.backlash, *Toothed)
+            teeth = [joint for joint in self._connections if isinstance(joint, Toothed)]
+            self._require_joints("backlash", self.section.backlash, teeth)
         return {name: MeshLoad(self, name) for name in self.meshes if self.has(name)}
 
     lacking_preload: float | None = None
@@ -948,7 +951,7 @@ def _less_friction(design: LoadsDesign) -> Iterator[Remedy]:
 
 def _scaled(design: LoadsDesign, share: float) -> Remedy:
     given = design.section.friction
-    found = [(f"loads.friction.{name}", getattr(given, name) * share) for name in ("pins", "guides")]
+    found = [(f"loads.friction.{name}", getattr(given, name) * share) for name in ("pins", "guides", "contacts")]
     found = [(key, at_most(value, 0.001)) for key, value in found if value]
     if given.meshes < 1.0:
         found.append(("loads.friction.meshes", 1.0 - at_most(share * (1.0 - given.meshes), 0.001)))

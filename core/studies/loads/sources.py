@@ -137,7 +137,8 @@ def coefficients_of(given: Friction, connections: Sequence[Connection]) -> Coeff
     if given.pin_radius == 0.0 and any(pins):
         words = "friction of pins acts at their radius"
         raise MissingSection(words, key="loads.friction", fix="give loads.friction.pin_radius (mm)")
-    return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius, dict(given.joints))
+    joints = dict(given.joints)
+    return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius, joints, given.contacts)
 
 
 class Sources:

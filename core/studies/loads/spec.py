@@ -141,11 +141,14 @@ class Friction(Spec):
         0.0, description="radius of the pins"
     )
     guides: Coefficient = Field(0.0, description="coefficient of friction in all guides")
+    contacts: Coefficient = Field(
+        0.0, description="coefficient of friction of flat faces and knife edges on their cams"
+    )
     meshes: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
         1.0, description="efficiency of all gear meshes, output over input power whichever gear drives"
     )
     joints: dict[str, Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]] = Field(
-        {}, description="coefficient of a pin or guide, or efficiency of a mesh, by its name"
+        {}, description="coefficient of a pin, guide, face or edge, or efficiency of a mesh, by its name"
     )
 
 

@@ -194,3 +194,39 @@ def test_a_follower_without_a_spring_is_told_a_preload_that_holds_it(follower: d
     for share, holds in ((1.0, True), (1.0 / 1.2, False)):
         (after,) = loads(**given, spring={"preload": share * preload}).check("contact-loss")
         assert (after.value > 0.0) is holds
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("follower", [FLAT, EDGE], ids=["flat", "edge"])
+def test_what_slides_on_the_cam_rubs(follower: dict[str, Any], sense: int) -> None:
+    """N (n.u - mu w t.u) = F along the travel u, w the sense of sliding along t; the torque by the power of all forces.
+
+    The guide takes what is across without friction.
+    """
+    section = SLIDE["loads"] if follower is FLAT else {k: v for k, v in SLIDE["loads"].items() if k != "roller"}
+    given = {"follower": follower, "cam": {"base_radius": 40, "sense": sense}, "spring": {"preload": 90, "rate": 15}}
+    plain, rubbing = (loads(**given, loads=section | more) for more in ({}, {"friction": {"contacts": 0.12}}))
+    cams, force = plain.design.cams, plain.closing.force(PHI)
+    lift, rate = cams.motion.evaluate(PHI, 1)
+    if follower is FLAT:
+        normal, place = np.full(PHI.size, cams.direction), cams.flat.touch(PHI).point
+    else:
+        normal = cams.main.normals(PHI)
+        place = cams.direction * (cams.start_height + lift - 1j * cams.place.offset)
+    tangent = 1j * normal
+    sliding = ((rate * cams.direction - 1j * sense * place) * tangent.conj()).real
+    across, along = ((each * np.conj(cams.direction)).real for each in (tangent, normal))
+    pressed = force / (along - 0.12 * np.sign(sliding) * across)
+    assert rubbing.contact_force("main", PHI) == pytest.approx(pressed, rel=1e-12)
+    torque = 1e-3 * (force * rate + 0.12 * pressed * np.abs(sliding))
+    assert rubbing.machine.torque(PHI) == pytest.approx(torque, rel=1e-11, abs=1e-13)
+    assert rubbing.power_identity == pytest.approx(0.0, abs=1e-12)
+    named = loads(**given, loads=section | {"friction": {"joints": {"main": 0.12}}})
+    assert named.machine.torque(PHI) == pytest.approx(torque, rel=1e-11, abs=1e-13)
+
+
+def test_a_roller_does_not_slide() -> None:
+    with pytest.raises(NoSolution, match="no joint 'main'"):
+        _ = loads(loads=SLIDE["loads"] | {"friction": {"joints": {"main": 0.1}}}).friction
+    rolling = loads(loads=SLIDE["loads"] | {"friction": {"contacts": 0.1}})
+    assert rolling.machine.torque(PHI) == pytest.approx(loads().machine.torque(PHI), rel=1e-12, abs=1e-13)
