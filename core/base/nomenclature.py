@@ -387,6 +387,12 @@ GEAR_PAIR = {
     "tip_clearance": Term("c", "mm", "clearance between the gear's tip and the mating gear's root", "ISO 21771"),
     "specific_sliding_tip": Term("zeta_a", "1", "sliding over rolling velocity of the flank at the tip", "ISO 21771"),
     "sliding_factor": Term("K_g", "1", "sliding over pitch line speed, at A and at E", "ISO 21771"),
+    "tooth_loss_factor": Term(
+        "H_v",
+        "1",
+        "tooth loss factor: the efficiency is 1 - mu H_v, mu the mean coefficient of friction",
+        "ISO/TR 14179-2",
+    ),
     "pin_diameter": Term("D_M", "mm", "measuring ball or pin", "DIN 21773"),
     "measure_over_balls": Term("M_dK", "mm", "measure over two balls, of a ring between them", "DIN 21773"),
     "measure_over_pins": Term("M_dR", "mm", "measure over two pins, of a ring between them", "DIN 21773"),

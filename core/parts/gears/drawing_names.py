@@ -21,6 +21,7 @@ PLACES = {
     "tip_clearance": "pair.tip_clearance",
     "specific_sliding_tip": "path.sliding_at_tip",
     "sliding_factor": "path.sliding_factor",
+    "tooth_loss_factor": "path.loss_factor",
     "involute_margin": "internal.involute_margin",
     "tip_fouling_margin": "internal.tip_fouling_margin",
     "radial_assembly_margin": "internal.radial_assembly_margin",

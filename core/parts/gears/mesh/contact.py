@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.mesh.pair import GearPair
@@ -140,6 +141,30 @@ class PathOfContact:
         """K_g = v_g/v_t at A and at E: (rho_C1 - rho_A1)(1 + 1/u)/r_w1, (rho_E1 - rho_C1)(1 + 1/u)/r_w1."""
         share = (1.0 + 1.0 / self.gear_ratio) / self.pair.working_radius[0]
         return (self.pitch - self.start) * share, (self.end - self.pitch) * share
+
+    @cached_property
+    def loss_factor(self) -> float:
+        """H_v: friction power of the teeth over the transmitted one and the coefficient of friction, with the load
+        shared equally by the pairs of teeth in contact.
+
+        H_v = 2 pi (1/z_1 + 1/z_2)/cos(beta_b) Int |g|/n dg,  g from the pitch point in base pitches, n pairs at g
+
+        Notes
+            Where one pair is in contact at the pitch point, the integral is (1 - eps_alpha + eps_1^2 + eps_2^2)/2.
+        Source
+            ISO/TR 14179-2, Ohlendorf's factor
+        """
+        pair = self.pair
+        first, last = (self.start - self.pitch) / pair.base_pitch, (self.end - self.pitch) / pair.base_pitch
+        more = range(1, math.ceil(last - first))
+        inside = {0.0, *(first + k for k in more), *(last - k for k in more)}
+        cuts = [first, *sorted(each for each in inside if first < each < last), last]
+        sliding = 0.0
+        for low, high in pairwise(cuts):
+            middle = 0.5 * (low + high)
+            pairs = math.floor(last - middle) + math.floor(middle - first) + 1
+            sliding += 0.5 * abs(high - low) * abs(high + low) / pairs
+        return 2.0 * math.pi * (1.0 + 1.0 / self.gear_ratio) / pair.teeth[0] / math.cos(pair.base_helix_angle) * sliding
 
     def sliding(self, rho: float) -> Pair:
         """zeta_1 = 1 - rho_2/(u rho_1) and zeta_2 = 1 - u rho_1/rho_2 at rho_1 [mm]; infinite on a base circle."""
