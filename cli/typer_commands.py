@@ -102,13 +102,13 @@ def _explain(
         list[str] | None,
         typer.Argument(
             metavar="NAME",
-            help="term, code, check, quantity, symbol, key, column, kind or law; (4-26) or figure 2-4 of a source",
+            help="term, code, check, quantity, symbol, key, table, column, kind, law; (4-26) or figure 2-4 of a source",
             autocompletion=offers("explained"),
         ),
     ] = None,
     format: PageOption = PageFormat.TABLE,
 ) -> None:
-    """Explain a term of the field, a code, check, quantity, symbol, key, column, kind or motion law.
+    """Explain a term of the field, a code, check, quantity, symbol, key, table, column, kind or motion law.
 
     Terms are known in English, German and Chinese; without NAME, list the codes.
 

@@ -5,6 +5,7 @@ Run by `make docs`, checked by the tests.
 
 from __future__ import annotations
 
+import inspect
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
@@ -166,7 +167,22 @@ def made() -> Index:
         {name: list(_givers(name, shown)) for name in TERMS},
         [*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567"],
         {kind.name: _first_command(kind, worked_design(kind)) for kind in FILES.values()},
+        {name: [(words, *who) for words, who in texts.items()] for name, texts in sorted(_tables().items())},
     )
+
+
+def _tables() -> dict[str, dict[str, tuple[list[str], str]]]:
+    """Of each table what the docstrings say of it, with the kinds, and `analyze` or the first command that gives it."""
+    found: dict[str, dict[str, tuple[list[str], str]]] = {}
+    for kind in FILES.values():
+        for command in sorted(kind.commands, key=lambda name: name != "analyze"):
+            cls = kind.design_class(command)
+            for name in cls.table_names():
+                told = inspect.getdoc(getattr(cls, f"table_{name}")) or ""
+                kinds, _ = found.setdefault(name, {}).setdefault(told.partition("\n")[0], ([], command))
+                if kind.name not in kinds:
+                    kinds.append(kind.name)
+    return found
 
 
 def _makes(kind: Kind, check: str) -> bool:

@@ -1,4 +1,4 @@
-"""`gearlink explain`: what a term, code, quantity, check, key, column, kind of design or law of motion means.
+"""`gearlink explain`: what a term, code, quantity, check, key, table, column, kind or law of motion means.
 
 Columns of tables, constants and formulas of quantities have the words of `words.json`.
 
@@ -264,6 +264,24 @@ def _topics(name: str) -> Iterator[Topic]:
         yield Topic("constant", name, CONSTANTS[name], {"See also": "`gearlink laws` gives it for every law"})
     if (name not in TERMS or name in COLUMNS) and column_words(name):
         yield Topic("column", name, f"column of a table: {column_words(name)}", {})
+    if name in index().tables:
+        yield _table(name)
+
+
+_MOST_KINDS = 6  # kinds that stand by name before what a table of theirs holds
+
+
+def _table(name: str) -> Topic:
+    """What a table holds; each kind has its part where they differ."""
+    from gearlink.cli.texts.written_design import uncapitalised
+
+    texts = index().tables[name]
+    words, kinds, command = texts[0]
+    see = {"See also": f"`gearlink {command} FILE --table {name}`"}
+    if len(texts) == 1:
+        return Topic("table", name, f"table of results: {uncapitalised(words)}", {"Kinds": ", ".join(kinds)} | see)
+    by_kind = {", ".join(kinds) if len(kinds) <= _MOST_KINDS else "Most kinds": words for words, kinds, _ in texts}
+    return Topic("table", name, "table of results", by_kind | see)
 
 
 def _symbols(name: str) -> Iterator[Topic]:
@@ -318,14 +336,14 @@ def term_names() -> Iterator[str]:
 
 
 def plain_names() -> tuple[str, ...]:
-    """Codes, checks, kinds, quantities, laws, columns: what is known beside the keys of files."""
+    """Codes, checks, kinds, quantities, laws, columns, tables: what is known beside the keys of files."""
     from gearlink.cli.texts.codes import explanations
     from gearlink.core.base.kinds import FILES
     from gearlink.core.base.nomenclature import TERMS
 
     texts = explanations()
     checks = [check for text in texts.values() for check in text.checks]
-    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *index().laws, *COLUMNS, *CONSTANTS]))
+    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *index().laws, *COLUMNS, *CONSTANTS, *index().tables]))
 
 
 # Terms of the field, places of the sources, words of other tools
@@ -521,7 +539,7 @@ def _index(format: Format) -> str:
     known = listed((code, title + (f" [{checks}]" if checks else "")) for code, title, checks in rows)
     more = (
         "`gearlink explain NAME` takes a code, a term of the field in English, German or Chinese, a figure or equation "
-        "of a source such as (4-26), and the name of a check, quantity, symbol, key, column, kind or law."
+        "of a source such as (4-26), and the name of a check, quantity, symbol, key, table, column, kind or law."
     )
     return f"{known}\n\n{hanging(more, '')}"
 

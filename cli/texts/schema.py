@@ -47,12 +47,14 @@ class Index:
         quantities : quantity -> kinds with the commands that show it
         laws : names of motion laws
         first_commands : kind -> the first command that its example asks for
+        tables : table -> what it holds, the kinds of which that is said, and a command that gives it
     """
 
     checks: dict[str, list[str]]
     quantities: dict[str, list[str]]
     laws: list[str]
     first_commands: dict[str, str]
+    tables: dict[str, list[tuple[str, list[str], str]]]
 
 
 @cache

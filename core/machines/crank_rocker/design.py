@@ -247,7 +247,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         return self._over("links", all_rates({"coupler": turned("coupler"), "rocker": rocker(self)}), samples)
 
     def table_path(self, samples: int | None = None) -> Table:
-        """Path of the coupler point: its place, speed by the crank angle, and radius of curvature.
+        """Path of the coupler point: its position, speed by the crank angle, and radius of curvature.
 
         The radius is positive where the path curves to the left of its way, and null where it is straight.
         """

@@ -484,7 +484,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
         return mutilated_layout(self)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
+        """Driven gear and rocker until both are back at the start, or over a hundred cycles; a motion begins at 0."""
         from gearlink.core.mechanism.courses import Shown, motion_table
 
         count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)

@@ -1055,7 +1055,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         return motion_table("path", self, shown, samples, degrees=turn_degrees(samples, self.shown_turns))
 
     def table_deviations(self, _samples: int | None = None) -> Table:
-        """Every point that is asked for and its distance from the path."""
+        """Every required point and its distance from the path."""
         target, fit = self.spec.target, self.fit
         assert target is not None, "shown only with a fit"
         assert target.points is not None, "shown only with a fit"

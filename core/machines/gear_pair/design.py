@@ -284,7 +284,7 @@ class GearPairDesign(GearQuantities, Design):
             return self.contour.table()
 
     def table_margins(self, _samples: int | None = None) -> Table:
-        """How far the design is from each line of the contour, at the same shift sum."""
+        """Distance of the design from each line of the contour, at the same shift sum."""
         with at_key(self._placed_by):
             return self.contour.margin_table()
 

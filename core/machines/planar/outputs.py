@@ -214,7 +214,7 @@ def links(design: PlanarMechanism, samples: int | None = None) -> Table:
 
 
 def points(design: PlanarMechanism, samples: int | None = None) -> Table:
-    """Place, velocity, acceleration and jerk of every point of a moving link."""
+    """Position, velocity, acceleration and jerk of every point of a moving link."""
 
     structure = design.structure
     moving = dict.fromkeys(point for body, points in structure.bodies.items() if body != "frame" for point in points)
@@ -226,7 +226,7 @@ def points(design: PlanarMechanism, samples: int | None = None) -> Table:
 
 
 def slides(design: PlanarMechanism, samples: int | None = None) -> Table:
-    """Place, velocity, acceleration and jerk of every slide and slot."""
+    """Position, velocity, acceleration and jerk of every slide and slot."""
 
     structure = design.structure
     shown = (

@@ -241,7 +241,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
             yield Found("target", None)
 
     def table_candidates(self, _samples: int | None = None) -> Table:
-        """The wanted swing by other teeth; the rocker is their centre distance."""
+        """The required swing by other teeth; the rocker is their centre distance."""
         from gearlink.core.base.candidates import Sought, around, nothing_sought, pairs, table
 
         if self.spec.target is None:
@@ -378,7 +378,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
         return rocker_layout(self)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Rocker and output over a revolution of the crank; the output angle counts from its place at crank angle 0."""
+        """Rocker and output over a revolution of the crank; the output angle is 0 at crank angle 0."""
         from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
         from gearlink.core.mechanism.courses import Shown, between, motion_table, of_output, turned
 

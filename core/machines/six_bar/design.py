@@ -365,7 +365,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         return motion_table("links", self, shown, samples, degrees=self._rows(samples))
 
     def table_joints(self, samples: int | None = None) -> Table:
-        """Places of the moving pins."""
+        """Positions of the moving pins."""
         from gearlink.core.mechanism.courses import Shown, columns_of, coordinate
 
         degrees = self._rows(samples)

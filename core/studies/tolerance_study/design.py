@@ -674,7 +674,7 @@ class ToleranceStudy(Design):
         return lower, upper
 
     def table_quantities(self, _samples: int | None = None) -> Table:
-        """Spread and capability of every quantity that scatters."""
+        """Spread and capability of every quantity that varies."""
         rows = []
         for name in self.varying:
             spread = self.result.spreads[name]
@@ -721,7 +721,7 @@ class ToleranceStudy(Design):
         return _table("contributions", columns, rows)
 
     def table_corners(self, _samples: int | None = None) -> Table:
-        """Minimum and maximum value at the corners of the limits; the signs of the sources at the greatest."""
+        """Minimum and maximum value at the corners of the limits; the signs of the sources at the maximum."""
         found = corners(self.problem, self.varying, self.slopes)
         rows = [(name, self.units[name], *found[name]) for name in self.varying]
         return _table("corners", ("quantity", "unit", "least", "greatest", "signs"), rows)

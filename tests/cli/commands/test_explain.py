@@ -13,7 +13,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli.commands.explain import FORMULAS, column_words, find, names
 from gearlink.cli.texts.codes import explanations
-from gearlink.cli.texts.schema import inner_keys
+from gearlink.cli.texts.schema import index, inner_keys
 from gearlink.core.base.codes import rules
 from gearlink.core.base.kinds import FILES as KINDS
 from gearlink.core.base.nomenclature import TERMS
@@ -230,10 +230,28 @@ def test_help_has_an_example(gearlink: Any) -> None:
     ("mesh_13", "column", "tangential force in that mesh"),
     ("kappa", "constant", "rest-to-speed law"),
     ("P15", "column", "instant centre P15"),
+    ("segments", "table", "each segment with its law"),
+    ("walls", "table", "points of both walls in space"),
 ])  # fmt: skip
 def test_symbols_keys_columns_and_constants_are_known(gearlink: Any, name: str, about: str, words: str) -> None:
     topics = gearlink("explain", name, "--format", "json").json["topics"]
     assert [topic["title"] for topic in topics if topic["about"] == about and words in topic["title"]]
+
+
+def test_a_table_says_what_it_holds_for_each_kind(gearlink: Any) -> None:
+    page = gearlink("explain", "motion").out
+    assert "slider-crank: The slider over a revolution of the crank" in page
+    assert "cam-gear, cam-linkage: The output over a revolution of the input" in page
+    assert "Most kinds: Every source" in gearlink("explain", "budget").out
+
+
+def test_every_table_is_explained() -> None:
+    tables = {
+        name for kind in KINDS.values() for cls in map(kind.design_class, kind.commands) for name in cls.table_names()
+    }
+    assert len(tables) > 80
+    assert tables == set(index().tables)
+    assert all(words.strip() for texts in index().tables.values() for words, _, _ in texts)
 
 
 def test_a_key_says_unit_range_choice_and_kinds(gearlink: Any) -> None:
