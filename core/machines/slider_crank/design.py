@@ -267,11 +267,11 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         return part.fn.acos((self.crank_length + abs(part.offset)) / part.rod)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """The slider over a revolution of the crank; displacement counts from the dead centre nearest to D."""
+        """Slider and rod over a revolution of the crank; displacement counts from the dead centre nearest to D."""
         from gearlink.core.machines.slider_crank.mechanism import displacement
         from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 
-        way = displacement(self)
+        way, rod = displacement(self), turned("rod", sense=-1.0).less(0.5 * math.pi)
         of_rack = []
         if self.rack_drive is not None:
             from gearlink.core.machines.slider_crank.mechanism import rack_displacement
@@ -286,7 +286,9 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
             Shown("displacement", way),
             Shown("velocity", way, 1, "slider_velocity"),
             Shown("acceleration", way, 2, "slider_acceleration"),
-            Shown("rod_angle", turned("rod", sense=-1.0).less(0.5 * math.pi)),
+            Shown("rod_angle", rod),
+            Shown("rod_speed_ratio", rod, 1, "rod_speed"),
+            Shown("rod_acceleration_ratio", rod, 2, "rod_acceleration"),
             Shown("transmission_angle", between("rod", "slider")),
             *of_rack,
         ]

@@ -240,7 +240,7 @@ def test_symbols_keys_columns_and_constants_are_known(gearlink: Any, name: str, 
 
 def test_a_table_says_what_it_holds_for_each_kind(gearlink: Any) -> None:
     page = gearlink("explain", "motion").out
-    assert "slider-crank: The slider over a revolution of the crank" in page
+    assert "slider-crank: Slider and rod over a revolution of the crank" in page
     assert "cam-gear, cam-linkage: The output over a revolution of the input" in page
     assert "Most kinds: Every source" in gearlink("explain", "budget").out
 

@@ -246,3 +246,20 @@ def test_dead_centers_are_named_at_the_angles_of_the_motion(offset: float) -> No
     assert made.quantity("forward_angle").value == pytest.approx(
         made.quantity("dead_center_extended_at").value - made.quantity("dead_center_folded_at").value, rel=1e-14
     )
+
+
+@pytest.mark.parametrize("offset", [22.0, -22.0])
+def test_rod_turns_as_its_angle_to_the_slide_line_says(offset: float) -> None:
+    """sin(rod_angle) = (r cos(theta) + e)/L, its 50-digit derivatives; 64 eps of the maximum, as (L/w)^3 is below 2."""
+    spec = {"stroke": None, "crank": 75.0, "rod": 260.0, "offset": offset, "input_speed": 300.0}
+    found = factory.design("ty460_slider_crank", command="analyze", **spec).table("motion", samples=24)
+    w = 10.0 * math.pi
+
+    def angle(theta: mp.mpf) -> mp.mpf:
+        return mp.asin((75 * mp.cos(theta) + offset) / 260)
+
+    for order, ratio, timed in ((1, "rod_speed_ratio", "rod_speed"), (2, "rod_acceleration_ratio", "rod_acceleration")):
+        exact = [float(mp.diff(angle, mp.radians(row), order)) for row in found["input_angle"].tolist()]
+        close = 64.0 * EPS * max(map(abs, exact))
+        assert found[ratio] == pytest.approx(exact, abs=close)
+        assert found[timed] == pytest.approx(np.multiply(exact, w**order), abs=close * w**order)
