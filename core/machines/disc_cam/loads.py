@@ -220,13 +220,13 @@ class FollowerCamLoads(_Loads):
         return 1.0 if self.spec.oscillates else 1e-3
 
     @property
-    def lacking_preload(self) -> float | None:  # type: ignore[override]
+    def lacking_spring(self) -> tuple[str, float] | None:  # type: ignore[override]
         """What its inertia and the forces on it pull it off with [N, or N m]; None with a spring."""
         if self.spec.spring is not None or self.on_two_sides:
             return None
         joints = self.design.cams.motion.joints
         pull = maximum_over(lambda phi: -self.closing.force(phi), joints=joints)
-        return max(pull.value, 0.0)
+        return "spring.preload", max(pull.value, 0.0)
 
     @property
     def closing_remedy(self) -> str:

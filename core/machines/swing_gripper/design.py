@@ -1559,7 +1559,9 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
             return LIFT_OFF.check("fail", what, None, self.spec.speed, "sheets/h", fix=fix)
         if self.spec.spring is None:
             rollers = "either roller on its cam" if len(self.cams.discs) > 1 else "the roller on its cam"
-            what, fix = f"nothing presses {rollers}", "give spring.torque, or the levers of the spring"
+            pull = max(extreme.value for extreme in self.closure.worst_unloading)
+            what, least = f"nothing presses {rollers}", f" of at least {safely_above(_RESERVE**2 * pull, 4)} N m"
+            fix = f"give spring.torque{least if pull > 0.0 else ''}, or the levers of the spring"
             return LIFT_OFF.check("warn", what, None, self.spec.speed, "sheets/h", fix=fix)
         torque, speed, reserve = self.closure.closing_torque, self.closure.lift_off_speed, self.closure.spring.reserve
         names = [cam.name.removesuffix(" cam") for cam in self.cams.discs]

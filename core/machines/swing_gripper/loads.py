@@ -133,6 +133,13 @@ class GripperLoads(CamLoadsDesign):
         return None if self.spec.spring is None else self.design.lift_off_speed
 
     @property
+    def lacking_spring(self) -> tuple[str, float] | None:  # type: ignore[override]
+        """The torque that unloads a roller most [N m]; None with a spring."""
+        if self.spec.spring is not None:
+            return None
+        return "spring.torque", max(worst.value for worst in self.design.closure.worst_unloading)
+
+    @property
     def closing_remedy(self) -> str:
         """What presses the rollers harder."""
         spring = self.spec.spring

@@ -787,8 +787,8 @@ class LoadsDesign(Design):
             self._require_joints("backlash", self.section.backlash, teeth)
         return {name: MeshLoad(self, name) for name in self.meshes if self.has(name)}
 
-    lacking_preload: float | None = None
-    """Of a follower without a spring: the minimum preload that holds it on its cam [N, or N m]."""
+    lacking_spring: tuple[str, float] | None = None
+    """Of a cam mechanism without a spring: the key and the minimum value that hold the rollers on their cams."""
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:
         """Remedies from closed forms."""
@@ -967,9 +967,9 @@ def _closed_rollers(design: LoadsDesign) -> Iterator[Remedy]:
         old = number_at(design.spec, key)
         if old is not None:
             yield from (((key, at_least(old * more, step)),) for more in (1.1, 1.25, 1.5, 2.0, 3.0, 5.0))
-    lacking = design.lacking_preload
-    if lacking is not None:
-        yield from ((("spring.preload", at_least(lacking * more)),) for more in (1.1, 1.25, 1.5, 2.0))
+    if design.lacking_spring is not None:
+        key, least = design.lacking_spring
+        yield from (((key, at_least(least * more)),) for more in (1.1, 1.25, 1.5, 2.0))
     old = number_at(design.spec, "unloader.reserve")
     if old is not None:
         yield from ((("unloader.reserve", at_least(old + more, 0.01)),) for more in (0.1, 0.25, 0.5, 1.0, 2.0))

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
@@ -241,3 +242,15 @@ def test_rollers_that_no_spring_presses_on_their_cams_are_warned_of(command: str
 
 def test_a_spring_without_masses_is_not_judged() -> None:
     assert not [check for check in machine(inertia=None).report("gripper").checks if check.name == "lift-off"]
+
+
+def test_rollers_without_a_spring_are_told_a_torque_that_presses_them() -> None:
+    bare = factory.design("loaded_gripper", command="loads", spring=None)
+    assert "fail" in {check.status for check in bare.check("contact-loss")}
+    ((key, torque),) = next(iter(bare.candidates("contact-loss")))
+    assert key == "spring.torque"
+    held = factory.design("loaded_gripper", command="loads", spring={"torque": torque})
+    assert all(check.value > 0.0 for check in held.check("contact-loss"))
+    (found,) = factory.design("loaded_gripper", command="gripper", spring=None).check("lift-off")
+    least = float(found.fix.partition("of at least ")[2].partition(" ")[0])
+    assert 1.0 < least / torque < 1.2  # a tenth of speed in reserve
