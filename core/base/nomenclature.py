@@ -368,6 +368,9 @@ GEAR_PAIR = {
     "tip_pressure_angle": Term("alpha_a", "deg", "angle between flank and radius at the tip circle", "ISO 21771"),
     "tip_thickness": Term("s_a", "mm", "tooth thickness at the tip", "ISO 21771"),
     "min_shift_no_undercut": Term("x_min", "1", "minimum shift without undercut (rack tool)", "ISO 21771"),
+    "min_teeth_no_undercut": Term(
+        "z_min", "1", "minimum number of teeth without undercut at the gear's profile shift (rack tool)", "ISO 21771"
+    ),
     "span_measurement": Term("W_k", "mm", "span measurement over k teeth", "ISO 21771"),
     "span_teeth": Term("k", "1", "teeth spanned", "ISO 21771"),
     "specific_sliding": Term("zeta", "1", "specific sliding at the root end of the active flank", "ISO 21771"),

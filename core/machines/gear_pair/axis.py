@@ -70,7 +70,7 @@ _TEETH = ("teeth[0]", "teeth[1]")
 _DOMAIN_OF_RINGS = {**_DOMAIN, "teeth[1]": (-1e4, -3.0, -60.0)}
 _OF_RING = ("involute_margin", "tip_fouling_margin", "radial_assembly_margin")
 _OF_DRAWING = (
-    *("transverse_pressure_angle", "base_helix_angle", "form_radius", "tip_clearance"),
+    *("transverse_pressure_angle", "base_helix_angle", "min_teeth_no_undercut", "form_radius", "tip_clearance"),
     *("path_of_contact", "used_root_radius", "usable_contact_ratio", "specific_sliding_tip", "sliding_factor"),
 )
 _OF_WIDTH = ("overlap_ratio", "total_contact_ratio")

@@ -16,6 +16,7 @@ PLACES = {
     "total_contact_ratio": "path.total_contact_ratio",
     "usable_contact_ratio": "path.usable_contact_ratio",
     "path_of_contact": "path.length",
+    "min_teeth_no_undercut": "pair.min_teeth_no_undercut",
     "form_radius": "pair.form_radius",
     "used_root_radius": "path.used_root_radius",
     "tip_clearance": "pair.tip_clearance",

@@ -53,9 +53,9 @@ _MATE = 10_000
 _OF_GEAR = frozenset(
     (
         "profile_shift", "reference_radius", "base_radius", "working_radius", "tip_radius", "root_radius",
-        "tooth_thickness", "tip_pressure_angle", "tip_thickness", "min_shift_no_undercut", "span_measurement",
-        "span_teeth", "form_radius", "pin_diameter", "measure_over_balls", "measure_over_pins", "chordal_thickness",
-        "chordal_height", "generating_shift", "span_measurement_limits", "measure_limits",
+        "tooth_thickness", "tip_pressure_angle", "tip_thickness", "min_shift_no_undercut", "min_teeth_no_undercut",
+        "span_measurement", "span_teeth", "form_radius", "pin_diameter", "measure_over_balls", "measure_over_pins",
+        "chordal_thickness", "chordal_height", "generating_shift", "span_measurement_limits", "measure_limits",
     )
 )  # fmt: skip
 """Quantities that the gear has by itself."""

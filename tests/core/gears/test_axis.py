@@ -23,7 +23,7 @@ _OF_BOTH = (
     *("profile_shift", "reference_radius", "base_radius", "working_radius", "tip_radius", "root_radius"),
     *("tooth_thickness", "tip_pressure_angle", "tip_thickness", "min_shift_no_undercut", "span_measurement"),
     *("span_teeth", "specific_sliding", "form_radius", "tip_clearance", "used_root_radius", "specific_sliding_tip"),
-    "sliding_factor",
+    *("sliding_factor", "min_teeth_no_undercut"),
 )
 QUANTITIES = [
     *("contact_ratio", "working_pressure_angle", "center_distance", "reference_center_distance", "shift_sum"),
@@ -87,7 +87,7 @@ STUDIES: dict[str, tuple[dict[str, Any], dict[str, Any], list[str]]] = {
 
 RING: dict[str, Any] = {"kind": "gear-pair", "module": 2, "teeth": [21, -67], "profile_shift": [0.3, -0.3]}
 RING_QUANTITIES = [
-    *(name for name in QUANTITIES if name != "min_shift_no_undercut[1]"),
+    *(name for name in QUANTITIES if name not in ("min_shift_no_undercut[1]", "min_teeth_no_undercut[1]")),
     *("involute_margin", "tip_fouling_margin", "radial_assembly_margin"),
 ]
 RING_TEETH = {"teeth[0]": {"from": 10, "to": 60}, "teeth[1]": {"from": -160, "to": -55}}

@@ -456,14 +456,28 @@ class GearPair(PitchPair):
 
     def min_shift_of(self, gear: int) -> float:
         """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends."""
-        tool = self.tools[gear]
-        height = self.addendum if tool is None else tool.straight_end(self.pressure_angle)
+        height = self._straight_height(gear)
         return teeth.min_shift_no_undercut(self.teeth[gear], self.pressure_angle, height, self.helix_angle, self.fn)
+
+    def min_teeth_of(self, gear: int) -> float:
+        """z_min of an external gear, at its profile shift."""
+        height, shift = self._straight_height(gear), self.profile_shift[gear]
+        return teeth.min_teeth_no_undercut(shift, self.pressure_angle, height, self.helix_angle, self.fn)
+
+    def _straight_height(self, gear: int) -> float:
+        """How far the straight flank of a gear's tool reaches below its datum line [module]."""
+        tool = self.tools[gear]
+        return self.addendum if tool is None else tool.straight_end(self.pressure_angle)
 
     @cached_property
     def min_shift_no_undercut(self) -> tuple[float, float | None]:
         """x_min = h - z sin^2(alpha_t)/(2 cos(beta)) [module], for a rack tool; a ring has none."""
         return self.min_shift_of(0), None if self.internal else self.min_shift_of(1)
+
+    @cached_property
+    def min_teeth_no_undercut(self) -> tuple[float, float | None]:
+        """z_min = 2 cos(beta) (h - x)/sin^2(alpha_t), for a rack tool; a ring has none."""
+        return self.min_teeth_of(0), None if self.internal else self.min_teeth_of(1)
 
     def cut_root(self, gear: int) -> RackCutRoot:
         """The root of an external gear as its tool leaves it, in modules."""

@@ -503,6 +503,11 @@ class RingPairs(GearPairs):
         """x_min of the pinions; rings have none."""
         return self.min_shift_of(0), np.nan
 
+    @property
+    def min_teeth_no_undercut(self) -> Any:
+        """z_min of the pinions; rings have none."""
+        return self.min_teeth_of(0), np.nan
+
     @cached_property
     def shaped(self) -> ShapedRings | None:
         """The rings as their cutter leaves them; None without one."""

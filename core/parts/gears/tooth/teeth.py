@@ -75,6 +75,29 @@ def min_shift_no_undercut(
     return addendum - teeth * f.sin(alpha) ** 2 / 2.0 / f.cos(helix_angle)
 
 
+def min_teeth_no_undercut(
+    shift: float, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: GearFunctions = SCALARS
+) -> float:
+    """Number of teeth below which a rack cutter undercuts the tooth root at a profile shift.
+
+    z_min = 2 cos(beta) (h - x)/sin^2(alpha_t)
+
+    Parameters
+        shift : float [module] - profile shift x
+        pressure_angle, addendum, helix_angle, f : as of `min_shift_no_undercut`
+    Returns
+        z_min : float - not whole; below 0 where no gear is undercut
+    Example
+        >>> round(min_teeth_no_undercut(0.0, math.radians(20.0)), 3)
+        17.097
+
+    Source
+        the equation of `min_shift_no_undercut`, solved for the teeth
+    """
+    alpha = transverse(pressure_angle, helix_angle, f)
+    return 2.0 * f.cos(helix_angle) * (addendum - shift) / f.sin(alpha) ** 2
+
+
 def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *, what: str = "radius") -> float:
     """Rise of an involute's pressure angle from one radius to another.
 

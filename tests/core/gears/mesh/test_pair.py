@@ -94,6 +94,7 @@ def truth(module, teeth, alpha, addendum, clearance, shift=None, distance=None):
         "tip_pressure_angle": at,
         "tip_thickness": sa,
         "min_shift_no_undercut": [h - n * mp.sin(al) ** 2 / 2 for n in z],
+        "min_teeth_no_undercut": [(h - v) * 2 / mp.sin(al) ** 2 for v in x],
         "interference_margin": [line - tip[0], line - tip[1]],
         "specific_sliding": sliding,
     }
@@ -179,6 +180,8 @@ def scale(pair, name, true):
         return 1.0 + sum(abs(float(x)) for x in true)
     if name == "min_shift_no_undercut":
         return 1.0 + max(pair.teeth)
+    if name == "min_teeth_no_undercut":
+        return 2.0 * scale(pair, "profile_shift", pair.profile_shift) / math.sin(pair.pressure_angle) ** 2
     return 0.0
 
 

@@ -20,7 +20,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, half_tooth, outline, tooth_space
 from gearlink.core.parts.gears.tooth.involute import involute
-from gearlink.core.parts.gears.tooth.teeth import min_shift_no_undercut
+from gearlink.core.parts.gears.tooth.teeth import min_shift_no_undercut, min_teeth_no_undercut
 
 EPS = 2.0**-52
 ALPHA = math.radians(20.0)
@@ -79,6 +79,13 @@ def test_tool_touches_every_point_and_cuts_none(teeth, shift):
 @pytest.mark.parametrize("shift", [-0.3, 0.0, 0.2, 0.6])
 def test_undercut_begins_at_the_least_shift(teeth, shift):
     assert profile(teeth, shift).undercut == (shift < min_shift_no_undercut(teeth, ALPHA))
+
+
+@pytest.mark.parametrize("shift", [-0.3, 0.0, 0.2, 0.6])
+def test_undercut_ends_at_the_minimum_number_of_teeth(shift):
+    """The generated tooth of the next whole number has none, that of one tooth less has."""
+    least = math.ceil(min_teeth_no_undercut(shift, ALPHA))
+    assert (profile(least - 1, shift).undercut, profile(least, shift).undercut) == (True, False)
 
 
 @pytest.mark.parametrize(("teeth", "shift"), [(18, 0.0), (40, 0.0), (72, 0.3), (25, -0.2)])
