@@ -155,6 +155,12 @@ def test_quantity_says_unit_symbol_formula_and_who_gives_it(gearlink: Any) -> No
     assert "flatbed-press (crank)" in topic["given_by"]
 
 
+def test_lift_off_speed_is_that_of_each_kind_with_its_unit(gearlink: Any) -> None:
+    topic = gearlink("explain", "lift_off_speed", "--format", "json").json["topics"][1]
+    assert "swing-gripper: sheets/h, else 1/min" in topic["title"]
+    assert all(f"{kind}: n* = " in topic["formula"] for kind in ("disc-cam", "swing-gripper", "wide-swing"))
+
+
 def test_every_shown_quantity_has_a_giver(gearlink: Any) -> None:
     topic = gearlink("explain", "start_curvature_radius", "--format", "json").json["topics"][0]
     assert "wide-swing-cam (" in topic["given_by"]
