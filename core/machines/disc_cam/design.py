@@ -313,9 +313,12 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def min_curvature_radius(self) -> Any:
-        """Minimum convex radius of the pitch curve (of a face or an edge: of the profile) [mm]."""
+        """Minimum convex radius of the pitch curve (of a face or an edge: of the profile) [mm]; 0 where the velocity
+        steps down under a face."""
         if self.spec.is_edge:
             return self.cams.sharpest.value
+        if self.spec.is_flat and self.cams.flat.crossing is not None:
+            return 0.0
         return self._one_or_both([cam.min_curvature_radius.value for cam in self.profiles])
 
     @property

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 HUB = 1.5
 ROLLER_SHARE = 0.8
 AS_THICK_AS_ROLLER = "a shaft as thick as the roller"
+WITHOUT_STEP = "remove the step of the lift's velocity at cam angle {} deg"
 _SIZED = 1.0 + 1e-9
 _FIT = 1e-11
 """Of the limit: cams that are sized to it came out up to 2e-13 above it."""
@@ -81,13 +82,24 @@ def undercut_checks(
             status, cut = "fail", cam.undercut
             what = f"cut of the roller of the {cam.name} into its own profile"
             shown, at = Shown(cut.depth, 0.0, "mm", "<="), f"cam angle {short(math.degrees(cut.cam_angle))} deg"
-            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=plainly)
+            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=_of_step(cam) or plainly)
             continue
         if status != "pass":
             most = ROLLER_SHARE * least.value
             fix = larger() if larger and most <= 0.0 else f"take a roller of at most {safely_below(most)} mm"
         shown = against_curvature(roller, least.value, status)
         yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
+
+
+def _of_step(cam: DiscCam) -> str:
+    """The words for a cut at a step of the velocity, where the pitch curve has a corner; empty where it has none.
+
+    A roller of any radius cuts into the profile at a convex corner, however large the cam.
+    """
+    sharpest = max(cam.corners, default=None)
+    if sharpest is None or sharpest.value <= 0.0:
+        return ""
+    return WITHOUT_STEP.format(short(math.degrees(sharpest.place)))
 
 
 def flat_undercut_check(cam: FlatCam, limit: float, larger: str) -> Check:
@@ -97,7 +109,11 @@ def flat_undercut_check(cam: FlatCam, limit: float, larger: str) -> Check:
         limit : float [mm] - curvature radius below which it warns
         larger : str - the words for a larger cam, with {} for by how much [mm]
     """
-    least = cam.min_curvature_radius
+    least, crossing = cam.min_curvature_radius, cam.crossing
+    if crossing is not None:
+        what, place = "profile: it is undercut by a step of the lift's velocity", short(math.degrees(crossing.place))
+        at, fix = f"cam angle {place} deg", WITHOUT_STEP.format(place)
+        return CAM_UNDERCUT.check("fail", what, None, limit, "mm", side=">=", shown=NO_NUMBER, at=at, fix=fix)
     room = 1e-9 * max(limit, abs(least.value))
     status: Status = "fail" if least.value <= 0.0 else "warn" if least.value < limit - room else "pass"
     if least.value < 0.0:
@@ -211,6 +227,6 @@ def step_check(
         return rule.check("pass", what, abs(step), limit, unit, shown=NO_NUMBER)
     largest = max((jump for jump in steps if abs(jump[1]) > limit), key=lambda each: abs(each[1]))
     more = sum(abs(jump) > limit for _, jump in steps) - 1
-    aside = f"and {amount(more, 'smaller step')} at other joints" if more else ""
+    aside = f"and {amount(more, 'further step')} at other joints" if more else ""
     what, shown = f"step of the lift's {quantity}", Shown(abs(step), 0.0, unit, "<=")
     return rule.check(bad, what, abs(step), limit, unit, shown=shown, aside=aside, at=largest[0], fix=remedy)

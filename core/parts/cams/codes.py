@@ -25,11 +25,12 @@ CAM_UNDERCUT = Rule(
     "GL402",
     "roller undercuts the cam",
     "The roller is as large as the minimum convex curvature radius of the pitch curve, or cuts into the profile "
-    "elsewhere. The profile under a flat face is undercut where its curvature radius is not positive; that under a "
-    "knife edge never is. Below limits.curvature_radius both are warned of.",
+    "elsewhere. The profile under a flat face is undercut where its curvature radius is not positive, or its velocity "
+    "steps down; that under a knife edge never is. Below limits.curvature_radius both are warned of.",
     "The cutter removes part of the profile: the follower does not make the required motion. The tables show "
     "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
-    "Take a roller below 0.8 of the minimum curvature radius, or enlarge the base circle.",
+    "Take a roller below 0.8 of the minimum curvature radius, or enlarge the base circle. No size helps where the "
+    "velocity of the lift jumps: remove its step (GL403).",
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
     "VDI 2142; own derivation of the cut elsewhere",
     ("cam-undercut",),
@@ -45,7 +46,7 @@ VELOCITY_STEP = Rule(
     "|s'(t+) - s'(t-)| <= 1e-5 of the largest |s'|",
     "VDI 2143",
     ("velocity-step",),
-    ("sync.start", "laws", "cam"),
+    ("sync.start", "laws", "motion", "cam"),
     side="<=",
 )
 ACCELERATION_STEP = Rule(
@@ -57,7 +58,7 @@ ACCELERATION_STEP = Rule(
     "|s''(t+) - s''(t-)| <= 1e-5 of the largest |s''|",
     "VDI 2143",
     ("acceleration-step",),
-    ("cam.lead_in", "laws", "cam"),
+    ("cam.lead_in", "laws", "motion", "profile", "cam"),
     side="<=",
 )
 JERK_STEP = Rule(
@@ -70,7 +71,7 @@ JERK_STEP = Rule(
     "|s'''(t+) - s'''(t-)| <= limits.jerk_step",
     "VDI 2143",
     ("jerk-step",),
-    ("limits.jerk_step", "laws"),
+    ("limits.jerk_step", "laws", "motion"),
     side="<=",
 )
 CONSTANT_SUM = Rule(

@@ -30,7 +30,8 @@ _TURN = 2.0 * math.pi
 SAMPLES = 512
 _BESIDE = 1e-7
 """Of a joint [rad]: there a profile goes on by more than rounding, and a corner that no roller feels goes unseen."""
-_AT_CORNER, _TURNS = 1e-9, 1e-6
+AT_CORNER, _TURNS = 1e-9, 1e-6
+_NEAR_CORNER = 257
 """So near to a joint [rad] a curve that has no corner there turns by less [rad]."""
 _WITH_PLACE = ("max_pressure_angle", "most_convex")
 FOUND_TOGETHER = (*_WITH_PLACE, "max_radius", "min_radius", "least_support")
@@ -170,7 +171,7 @@ class DiscCam:
     def corners(self) -> list[Extreme]:
         """Turns of the pitch curve where the lift's velocity jumps [rad], convex positive, and their places."""
         places = np.array(self.bounds)
-        sides = np.mod(np.stack((places - _AT_CORNER, places + _AT_CORNER)), _TURN)
+        sides = np.mod(np.stack((places - AT_CORNER, places + AT_CORNER)), _TURN)
         before, after = self.normals(sides.ravel()).reshape(sides.shape)
         turns = -self.sense * np.angle(after * np.conj(before))
         return [
@@ -194,11 +195,25 @@ class DiscCam:
         Notes
             A profile without a cusp whose polar angle runs one way cannot cross itself, and an offset curve
             that neither has a cusp nor crosses itself is the true one; the search for far cuts is left to the
-            others.
+            others. A cut at a corner may be narrower than a step of that search.
         """
         if self.roller_radius < self.min_curvature_radius.value and self.star_shaped:
             return Undercut(0.0, 0.0, 0.0)
-        return undercut(self.points, self.roller_radius)
+        found = undercut(self.points, self.roller_radius)
+        convex = [corner for corner in self.corners if corner.value > 0.0]
+        return max(found, *map(self._cut_at, convex)) if convex else found
+
+    def _cut_at(self, corner: Extreme) -> Undercut:
+        """The cut at a convex corner of the pitch curve, within some roller radii times its turn."""
+        away = float(self.radius(np.array([corner.place]))[0]) + self.roller_radius
+        reach = min(4.0 * self.roller_radius * corner.value / away, 0.5)
+
+        def points(phi: Reals) -> tuple[Points, Points]:
+            return self.points(np.mod(phi, _TURN))
+
+        start, end = corner.place - reach, corner.place + reach
+        found = undercut(points, self.roller_radius, start=start, end=end, closed=False, samples=_NEAR_CORNER)
+        return found._replace(cam_angle=found.cam_angle % _TURN, roller_angle=found.roller_angle % _TURN)
 
     @cached_property
     def least_support(self) -> float:

@@ -17,8 +17,11 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
-from gearlink.core.parts.cams.disc_cam import SAMPLES
+from gearlink.core.parts.cams.disc_cam import AT_CORNER, SAMPLES
 from gearlink.core.parts.cams.follower_motion import FollowerMotion
+
+_CROSSES = 1e-6
+"""Of the largest radius: more than what the contact moves between both sides of a joint."""
 
 
 class Touch(NamedTuple):
@@ -148,6 +151,22 @@ class FlatCam:
     def min_curvature_radius(self) -> Extreme:
         """Minimum radius of the profile [mm] and its place; not positive where it is undercut."""
         return self._least(lambda phi: self.touch(phi).radius)
+
+    @cached_property
+    def crossing(self) -> Extreme | None:
+        """Greatest length by which the contact runs back along the profile at a step of the velocity [mm], and its
+        cam angle; None without one. There the profile crosses itself: a face of any cam leaves it.
+
+        Source
+            own derivation: the integral of rho over the step; a step up leaves a straight part
+        """
+        places = np.array(self.joints)
+        sides = np.mod(np.stack((places - AT_CORNER, places + AT_CORNER)), 2.0 * math.pi)
+        points, normals = self.points(sides.ravel())
+        before, after = points.reshape(sides.shape)
+        back = np.real(np.conj(1j * self.sense * normals.reshape(sides.shape)[0]) * (after - before))
+        found = [Extreme(length, place) for length, place in zip(back.tolist(), self.joints, strict=True)]
+        return max((each for each in found if each.value > _CROSSES * self.max_radius), default=None)
 
     @cached_property
     def max_radius(self) -> float:

@@ -74,6 +74,50 @@ def test_a_flat_face_touches_its_cam_and_cuts_it_nowhere(sense: int, side: int, 
     assert flat.min_curvature_radius.value == pytest.approx(flat.touch(CLOSE).radius.min(), rel=1e-5)
 
 
+STEPS = {
+    "down": [{"to": 120, "lift": 20, "law": "constant-velocity"}, {"to": 150}, {"to": 300, "lift": 0}, {"to": 360}],
+    "up": [{"to": 120, "lift": 20}, {"to": 150}, {"to": 300, "lift": 0, "law": "constant-velocity"}, {"to": 360}],
+    "none": [{"to": 120, "lift": 20}, {"to": 150}, {"to": 300, "lift": 0}, {"to": 360}],
+}
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("rocks", [False, True])
+@pytest.mark.parametrize("course", STEPS)
+def test_a_face_is_undercut_where_its_velocity_steps_down(course: str, rocks: bool, sense: int) -> None:
+    """Against the half-planes of all faces: a body that each touches has its contact in every other.
+
+    A rise at constant velocity begins with a step up and ends with one down, a return begins with one down; of two
+    laws from rest to rest none is.
+    """
+    follower = {"type": "translating-flat"}
+    if rocks:
+        follower = {"type": "oscillating-flat", "center_distance": 120, "face_offset": 6}
+    motion = [{**each, "lift": 0.5 * each["lift"]} if "lift" in each else each for each in STEPS[course]]
+    design = cam(motion, follower, {"base_radius": 60, "sense": sense})
+    phi = np.linspace(0.0, 2.0 * math.pi, 1_441)
+    points, normals = design.cams.flat.points(phi)
+    beyond = np.real(np.conj(normals)[None, :] * (points[:, None] - points[None, :])).max()
+    (check,) = design.check("cam-undercut")
+    assert (check.status, beyond > 1e-3) == (("pass", False) if course == "none" else ("fail", True))
+    if course != "none":
+        place = {"down": 120, "up": 150}[course]
+        assert check.fix == f"remove the step of the lift's velocity at cam angle {place} deg"
+        assert design.quantity("min_curvature_radius").value == 0.0
+
+
+@pytest.mark.parametrize("radius", [50.0, 300.0, 2000.0])
+def test_a_roller_cuts_where_its_velocity_steps_down_however_large_the_cam(radius: float) -> None:
+    """Where the pitch curve turns by d, the roller behind cuts r (1 - cos d) off the profile before; straight branches,
+    which those of a large cam are nearly: their bend changes it by r/R."""
+    roller = 8.0
+    design = cam(STEPS["down"], {"type": "translating-roller", "roller_radius": roller}, {"prime_radius": radius})
+    (check,) = design.check("cam-undercut")
+    assert (check.status, check.fix) == ("fail", "remove the step of the lift's velocity at cam angle 120 deg")
+    turn = math.atan(20.0 / math.radians(120.0) / (radius + 20.0))
+    assert design.cams.main.undercut.depth == pytest.approx(roller * (1.0 - math.cos(turn)), rel=1.5 * roller / radius)
+
+
 def test_published_flat_cam() -> None:
     """A lift of one inch in 90 deg by the cycloidal law, minimum radius a quarter inch: base circle 1.893 in."""
     motion = [{"to": 90}, {"to": 180, "lift": 25.4, "law": "cycloidal"}, {"to": 270}]

@@ -269,7 +269,7 @@ def test_zone_of_the_reports_whole_degrees_starts_without_a_step_worth_the_name(
     assert status(design, "velocity-step") == ["pass"]
     (check,) = design.check("acceleration-step")
     assert (check.code, check.status) == ("GL404", "warn")
-    assert "and 2 smaller steps at other joints) at the joint transition/return, 125 deg" in check.message
+    assert "and 2 further steps at other joints) at the joint transition/return, 125 deg" in check.message
 
 
 def test_acceleration_steps_go_away_as_advised():
