@@ -894,7 +894,12 @@ _REGISTER = {
         "register error where all sources add up, each at its greater limit, for torque sign +1 and -1",
     ),
     "rss": Term("", "mm", "standard deviation of the register error, for torque sign +1 and -1"),
-    "band": Term("", "mm", "register error to either side that 99.73 % keep, for torque sign +1 and -1"),
+    "band": Term(
+        "",
+        "mm",
+        "register error to either side that 99.73 % keep, by register.method worst that all keep, for torque sign +1 "
+        "and -1",
+    ),
     "dead_band": Term("", "mm", "jump of the output where its torque turns: backlash of the meshes"),
     "flips": Term("", "deg", "input angles at which the torque on the output turns"),
 }

@@ -409,7 +409,7 @@ class RegisterDesign(Design):
         return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
 
     def table_cycle(self, samples: int | None = None) -> Table:
-        """Absolute error over the whole cycle, for either torque sign."""
+        """Absolute error over the whole cycle, for either torque sign; the band by rss, whatever the method."""
         degrees = self.cycle_degrees(samples)
         found = [budget(self.contributions(np.radians(degrees), sign), None, self.correlations) for sign in SIGNS]
         columns = {
