@@ -48,7 +48,7 @@ _FORCE = re.compile(r"(?P<pin>[A-Z]|[A-Z]_[a-z]+|planet|cylinder|guide|guide_[a-
 _JOINT = re.compile(r"[A-HMNO]|[A-O]_(sum|return|idler|output|pinion)|planet|cylinder|guide(_[a-z]+)?")
 _RATE = re.compile(r"(?P<of>\w+)_(?P<what>velocity|speed|acceleration)_ratio")
 _POINT_RATE = re.compile(r"(?P<of>[A-Z])_(?P<axis>[xy])_(?P<what>velocity|acceleration)(?P<ratio>_ratio)?")
-_MEMBER = re.compile(r"(?P<of>\w+)\.(?P<what>position|velocity|acceleration)")
+_MEMBER = re.compile(r"(?P<of>\w+)\.(?P<what>position|velocity|acceleration|torque)")
 _MESH = re.compile(r"(mesh_\w+?|rack_lower|rack_upper)(_radial)?")
 
 
@@ -60,6 +60,8 @@ def _of_output(name: str) -> str:
     if found := _RATE.fullmatch(name):
         return f"{found['what']} of {found['of']} per unit of the input"
     if found := _MEMBER.fullmatch(name):
+        if found["what"] == "torque":
+            return f"share of the member {found['of']} in the torque on the main shaft"
         return f"{found['what']} of the output of the member {found['of']}"
     if name.startswith("guide") and name.endswith("_position"):
         return "position of what slides in the guide"

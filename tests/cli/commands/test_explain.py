@@ -402,6 +402,7 @@ def test_every_column_of_the_search_for_teeth_has_words(gearlink: Any) -> None:
         ("loaded_gripper", "loads", ("torque", "contact", "joints", "teeth", "frame", "harmonics")),
         ("loaded_press", "loads", ("torque", "contact", "joints", "teeth", "frame")),
         ("slider_crank_tolerances", "tolerance", ("allocation",)),
+        ("sheet_press", "loads", ("torque", "wind_up")),
     ],
 )
 def test_every_column_that_is_asked_for_has_words(name: str, command: str, tables: tuple[str, ...]) -> None:
