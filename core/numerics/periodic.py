@@ -167,12 +167,12 @@ def cosine_coefficients(values: Reals) -> Reals:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RisingTable:
-    """A rising function at some places, read backwards.
+    """A rising function at some places, read backwards; or many such functions, a row for each.
 
     Fields
         places : (N,) array - ascending
-        values : (N,) array - of the function there, ascending
-        slopes : (N,) array - of the function there, not negative
+        values : (N,) array, or rows of such - of the function there, ascending
+        slopes : as values - of the function there, not negative
     """
 
     places: Reals
@@ -183,9 +183,9 @@ class RisingTable:
         """About where the function has these values, by cubics with the slopes of the inverse at both neighbours.
 
         Parameters
-            values : (M,) array - within those of the table
+            values : (M,) array, of many functions a row for each - within those of the table
         Returns
-            places : (M,) array - between the neighbours
+            places : array as values - between the neighbours
         Notes
             The error falls as the fourth power of the step. A slope above three times that of the chord counts as
             three times, with which a cubic rises all the way.
@@ -198,13 +198,20 @@ class RisingTable:
         Source
             Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238, for the bound on the slopes
         """
-        left = np.clip(np.searchsorted(self.values, values, side="right") - 1, 0, len(self.values) - 2)
-        start, width = self.values[left], np.diff(self.values)[left]
+        left = np.clip(self._rank(values) - 1, 0, len(self.places) - 2)
+        at = (left,) if self.values.ndim < 2 else (np.arange(len(left))[:, None], left)
+        start, width = self.values[at], np.diff(self.values)[at]
         rise = np.diff(self.places)[left]
         with np.errstate(divide="ignore"):
             slopes = 1.0 / self.slopes
         t = (values - start) / width
-        first, last = (np.minimum(width * slopes[row], 3.0 * rise) for row in (left, left + 1))
+        first, last = (np.minimum(width * slopes[*at[:-1], row], 3.0 * rise) for row in (left, left + 1))
         cubic = t * (first + t * ((3.0 * rise - 2.0 * first - last) + t * (first + last - 2.0 * rise)))
         found: Reals = self.places[left] + np.clip(cubic, 0.0, rise)
         return found
+
+    def _rank(self, values: Reals) -> Any:
+        """How many values of the table are not above each."""
+        if self.values.ndim < 2:
+            return np.searchsorted(self.values, values, side="right")
+        return np.array([np.searchsorted(*row, side="right") for row in zip(self.values, values, strict=True)])

@@ -170,12 +170,12 @@ def newton_places(
     """Places between 0 and an end where rising functions are 0, by Newton's steps from near.
 
     Parameters
-        excess : of places and the rows that they are of - values and slopes
-        start : (N,) array - near the places
+        excess : of places and the columns that they are of - values and slopes
+        start : (N,) array, or rows of such - near the places
         high : float - the end
         floor : float - values up to which a place rests
     Returns
-        x : (N,) array or None - each as if it stood alone; None where some do not rest
+        x : array as start, or None - each as if it stood alone; None where some do not rest
     Notes
         The last step is at most 1e-9 of x. What it leaves is f''/(2 f') of its square: rounding, unless a slope doubles
         within a hundredth of x.
@@ -184,15 +184,19 @@ def newton_places(
         >>> newton_places(lambda x, rows: (x * x - c[rows], 2.0 * x), np.ones(2), 5.0)
         array([1.41421356, 3.        ])
     """
-    x, left = np.array(start), np.arange(start.size)
+    x, left, moves = np.array(start), np.arange(start.shape[-1]), np.ones(start.shape, dtype=bool)
     for _ in range(_NEWTON_STEPS):
         if not left.size:
             return x
-        value, slope = excess(x[left], left)
+        before = x[..., left]
+        value, slope = excess(before, left)
         step = value / slope
         # a step past an end stops there; the next one starts from the end
-        x[left] = at = np.clip(x[left] - step, 0.0, high)
-        left = left[~((np.abs(step) <= _RESTS * at + _FAINTEST) | (np.abs(value) <= floor))]
+        at = np.clip(before - step, 0.0, high)
+        x[..., left] = np.where(moves, at, before)
+        moves &= ~((np.abs(step) <= _RESTS * at + _FAINTEST) | (np.abs(value) <= floor))
+        going = moves if moves.ndim < 2 else moves.any(axis=0)
+        left, moves = left[going], moves[..., going]
     return None
 
 

@@ -430,6 +430,10 @@ class CamPoints:
     curvature_radius: Reals
 
 
+START, MIDDLE, END = range(3)
+"""Places at which the pitch curve may stop: k = 0, k* and 1."""
+
+
 class StrokeCam:
     """What the cams of all layouts share: radii, contact and profile, out of the pitch curve of a subclass.
 
@@ -455,7 +459,7 @@ class StrokeCam:
         @property
         def tops(self) -> list[list[Extreme]]: ...
         def state(self, k: Reals, /) -> CurveState: ...
-        def step(self, k: Reals, stop: float, /) -> tuple[Reals, Reals]: ...
+        def step(self, k: Reals, stop: int, /) -> tuple[Reals, Reals]: ...
         def require_profile(self) -> None: ...
 
     @property
@@ -554,7 +558,7 @@ class StrokeCam:
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
         places = np.array(self.sides(self.middle - zone, self.middle + zone))
-        lengths, depths = self.step(np.clip(places, 0.0, 1.0), self.middle)
+        lengths, depths = self.step(np.clip(places, 0.0, 1.0), MIDDLE)
         return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
 
     def pressure_angle(self, k: Reals) -> Reals:
@@ -755,7 +759,7 @@ class WideSwingCam(StrokeCam):
         pace = self.sense * self.law.swing / angle
         return 1.0 + pace * view.velocity, pace / angle * view.acceleration
 
-    def step(self, k: Reals, _stop: float, /) -> tuple[Reals, Reals]:
+    def step(self, k: Reals, _stop: int, /) -> tuple[Reals, Reals]:
         """Lengths of the pitch point's steps to k*, and their parts along the profile's normal [mm]."""
         return self._step(self.state(k))
 

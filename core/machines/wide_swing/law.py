@@ -60,7 +60,7 @@ def kept_for(kept: Kept[Turned], k: Reals, compute: Callable[[Reals], Turned]) -
 
 @dataclass(frozen=True)
 class Clock:
-    """Time over the pendulum angle, counted from a place of the stroke on, and read backwards.
+    """Time over the pendulum angle, counted from a place of the stroke on, and read backwards; of many laws in rows.
 
     Fields
         time, slowness : functions of an array of angles - time, in a unit of its own, and its derivative
@@ -85,9 +85,20 @@ class Clock:
         """The angles at fractions of the stroke, by Newton steps; None where some do not rest."""
 
         def excess(at: Reals, rows: Any) -> tuple[Reals, Reals]:
-            return self.time(at) - k[rows] * self.whole, self.slowness(at)
+            return self.time(at) - k[..., rows] * self.whole, self.slowness(at)
 
         return newton_places(excess, self._table.places_of(k), self.end, self.floor)
+
+
+def for_each(series: CosineSeries, k: Reals) -> Reals:
+    """Places as they are, or where a series is one of many a row of them for each."""
+    rows = series.coefficients.shape[:-1]
+    return np.broadcast_to(k, (*rows, k.shape[-1])) if rows else k
+
+
+def columns_of(chosen: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
+    """The columns in which some places are chosen; of an array without rows the places."""
+    return np.flatnonzero(chosen if chosen.ndim < 2 else chosen.any(axis=0))
 
 
 def require_share(k: Reals) -> None:
@@ -263,7 +274,7 @@ class ElasticLaw:
             results.append(odd * self._acceleration(sine, cosine))
         if order >= 3:
             results.append(self._jerk(sine, cosine))
-        return tuple(x.reshape(k.shape) for x in results)
+        return tuple(results)
 
     def middle_view(self, k: Reals) -> MiddleView:
         """The motion seen from mid-swing, every number with a small relative error there.
@@ -278,11 +289,7 @@ class ElasticLaw:
             NoSolution - for k outside 0 to 1
         """
         sine, cosine, second = self._pendulum(k)
-        view = self._view(np.where(second, sine, -sine), cosine)
-        if np.ndim(k) < 2:
-            return view
-        parts = (view.angle, view.velocity, view.deficit, view.acceleration)
-        return MiddleView(*(part.reshape(k.shape) for part in parts))
+        return self._view(np.where(second, sine, -sine), cosine)
 
     def _view(self, sine: Reals, cosine: Reals) -> MiddleView:
         """The same from sin u and cos u, both signs of u."""
@@ -340,12 +347,11 @@ class ElasticLaw:
 
     def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
         """|sin u| and cos u of every k, |sin(phi/2)| = sin(gamma/4) |sin u|."""
-        sine, cosine, _ = self._pendulum(k)
-        return sine.reshape(k.shape), cosine.reshape(k.shape)
+        return self._pendulum(k)[:2]
 
     def _pendulum(self, k: Reals) -> tuple[Reals, Reals, npt.NDArray[np.bool_]]:
         """sin u, cos u of every k folded into the first half, and which k lay in the second."""
-        return kept_for(self._kept, np.asarray(k, dtype=np.float64).ravel(), self._turned)
+        return kept_for(self._kept, for_each(self.clock, np.asarray(k, dtype=np.float64)), self._turned)
 
     @cached_property
     def _kept(self) -> Kept[tuple[Reals, Reals, npt.NDArray[np.bool_]]]:
@@ -356,11 +362,14 @@ class ElasticLaw:
         second = k > 0.5
         folded = np.where(second, 1.0 - k, k)
         near_start = folded <= 0.25
-        v = self._angles(self._from_start, folded[near_start])
-        u = self._angles(self._from_middle, 0.5 - folded[~near_start])
+        some, others = columns_of(near_start), columns_of(~near_start)
+        v = self._angles(self._from_start, np.minimum(folded[..., some], 0.25))
+        u = self._angles(self._from_middle, np.minimum(0.5 - folded[..., others], 0.25))
         sine, cosine = np.empty_like(folded), np.empty_like(folded)
-        sine[near_start], cosine[near_start] = np.cos(v), np.sin(v)
-        sine[~near_start], cosine[~near_start] = np.sin(u), np.cos(u)
+        sine[..., some], cosine[..., some] = np.cos(v), np.sin(v)
+        late = ~near_start[..., others]
+        sine[..., others] = np.where(late, np.sin(u), sine[..., others])
+        cosine[..., others] = np.where(late, np.cos(u), cosine[..., others])
         return sine, cosine, second
 
     def _angles(self, clock: Clock, k: Reals) -> Reals:

@@ -17,8 +17,11 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing.cam import (
+    END,
     LEAST_SPEED_RATIO,
+    MIDDLE,
     SMALLEST,
+    START,
     CurveState,
     StrokeCam,
     StrokeLaw,
@@ -178,7 +181,7 @@ class StoppingState(CurveState):
     def heading(self) -> Points:
         """The gradient, at a stop its derivative: before the stop that points back."""
         k, middle, (chi, psi) = self.k, self.cam.middle, self.seconds
-        near = np.abs(k[..., None] - np.array([0.0, middle, 1.0])).min(axis=-1) <= _AT_STOP
+        near = np.minimum(np.minimum(k, 1.0 - k), np.abs(k - middle)) <= _AT_STOP
         if not near.any():
             return self.gradient
         bent = (chi + psi) + 1j * self.a * (self.a - self.turning)
@@ -190,8 +193,8 @@ class StoppingState(CurveState):
     def curvature(self) -> Reals:
         """Infinite at the stops, on the side to which the curve bends there."""
         found = super().curvature
-        for stop, (bend, *_) in self.cam.stops.items():
-            found = np.where(self.k == stop, np.copysign(math.inf, bend), found)
+        for place, (bend, *_) in zip(self.cam.places, self.cam.stops, strict=True):
+            found = np.where(self.k == place, np.copysign(math.inf, bend), found)
         return found
 
     @property
@@ -282,20 +285,26 @@ class OscillatingCam(StrokeCam):
     @property
     def loop_margin(self) -> float:
         """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
-        return self.stops[self.middle][0]
+        return self.stops[MIDDLE][0]
+
+    @property
+    def places(self) -> tuple[float, float, float]:
+        """k of both ends and between them k*, where z'(k) = 0."""
+        return 0.0, self.middle, 1.0
 
     @cached_property
-    def stops(self) -> dict[float, tuple[float, float, complex]]:
-        """Im(conj(z2) z3)/|z2|^2, positive for a bulge, |z2| and z at k* and both ends, where z'(k) = 0."""
-        return {k: self._stop_at(k) for k in (0.0, self.middle, 1.0)}
+    def stops(self) -> tuple[tuple[float, float, complex], ...]:
+        """Im(conj(z2) z3)/|z2|^2, positive for a bulge, |z2| and z at these places."""
+        return tuple(self._stop_at(stop) for stop in (START, MIDDLE, END))
 
-    def _stop_at(self, k: float) -> tuple[float, float, complex]:
-        chi, chi1, chi2, chi3 = self.drive.motion(np.array([k]), 3)
+    def _stop_at(self, stop: int) -> tuple[float, float, complex]:
+        k = np.atleast_1d(self.places[stop])
+        chi, chi1, chi2, chi3 = self.drive.motion(k, 3)
         swing, r = self.law.swing, self.ratio
-        view = self.law.middle_view(np.array([k]))
+        view = self.law.middle_view(k)
         phi1, phi2 = swing * view.velocity, swing * view.acceleration
         # at the ends the rocker stands still, and the jerk that the law gives it with it
-        phi3 = swing * self.law.middle_jerk if k == self.middle else 0.0
+        phi3 = swing * self.law.middle_jerk if stop == MIDDLE else 0.0
         arm = r * np.exp(1j * view.angle)
         f, f1 = arm - 1.0, 1j * phi1 * arm
         f2, f3 = (1j * phi2 - phi1**2) * arm, (1j * phi3 - 3.0 * phi1 * phi2 - 1j * phi1**3) * arm
@@ -315,9 +324,9 @@ class OscillatingCam(StrokeCam):
             NoSolution - where the pitch curve has a loop
         """
         self.require_profile()
-        return self.left(self.middle)
+        return self.left(MIDDLE)
 
-    def left(self, stop: float) -> float:
+    def left(self, stop: int) -> float:
         """Part of the stroke over which the roller leaves a stop, to leading order."""
         bend, second, _ = self.stops[stop]
         return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
@@ -333,25 +342,26 @@ class OscillatingCam(StrokeCam):
             bulges there, the standing roller covers the first points of the profile as its slot does at k*.
         """
         self.require_profile()
-        start, end = self._cover(0.0, 1.0), self._cover(1.0, -1.0)
-        return (start, self._cover(self.middle, -1.0)), (self._cover(self.middle, 1.0), end)
+        start, end = self._cover(START, 1.0), self._cover(END, -1.0)
+        return (start, self._cover(MIDDLE, -1.0)), (self._cover(MIDDLE, 1.0), end)
 
-    def _cover(self, stop: float, side: float) -> float:
+    def _cover(self, stop: int, side: float) -> float:
         """How far from a stop, on one side of it, the roller that stands there covers the profile."""
+        place = self.places[stop]
         if self.stops[stop][0] <= 0.0:
-            return stop
+            return place
         estimate = self.left(stop)
         if estimate < SMALLEST:
-            return stop + side * estimate
+            return place + side * estimate
         far = self.far_from(stop, side)
-        return stop + side * covered(
-            lambda t: self.step(stop + side * t, stop), self.roller_radius, far, estimate, NOISE
+        return place + side * covered(
+            lambda t: self.step(place + side * t, stop), self.roller_radius, far, estimate, NOISE
         )
 
-    def far_from(self, stop: float, side: float) -> float:
+    def far_from(self, stop: int, side: float) -> float:
         """Way from a stop, on one side of it, at which the profile must be free of the roller that stands there."""
-        other = self.middle if stop in (0.0, 1.0) else 0.5 + 0.5 * side
-        return _FAR * abs(other - stop)
+        other = 0.5 + 0.5 * side if stop == MIDDLE else self.middle
+        return _FAR * abs(other - self.places[stop])
 
     def state(self, k: Reals) -> StoppingState:
         """Cam and roller at fractions k of the stroke."""
@@ -374,21 +384,22 @@ class OscillatingCam(StrokeCam):
             seconds=(second, bend),
         )
 
-    def step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:
+    def step(self, k: Reals, stop: int) -> tuple[Reals, Reals]:
         """Lengths of the pitch point's steps from a stop, and their parts against the profile's normal [mm]."""
-        state, size = self.state(k), self.center_distance
+        state, size, place = self.state(k), self.center_distance, self.places[stop]
         step = state.pitch - self.stops[stop][2]
-        near = np.abs(k - stop) <= _SHORT  # of two places nearly alike few digits would be left
+        near = np.abs(k - place) <= _SHORT  # of two places nearly alike few digits would be left
         some = near.reshape(-1, k.shape[-1]).any(axis=0)
         if some.any():
-            step[..., some] = np.where(near[..., some], self._short_step(k[..., some], stop), step[..., some])
+            step[..., some] = np.where(near[..., some], self._short_step(k[..., some], place), step[..., some])
         return size * np.abs(step), -size * (step * np.conj(state.normal)).real
 
-    def _short_step(self, k: Reals, stop: float) -> Points:
+    def _short_step(self, k: Reals, place: float) -> Points:
         """The steps as integrals of the velocity, whose digits are right down to the stop."""
         nodes, weights = gauss_legendre(12)
-        half = 0.5 * (k - stop)
-        state = self.state((stop + half[..., None] * (1.0 + nodes)).reshape(*k.shape[:-1], -1))
+        half = 0.5 * (k - place)
+        between = np.asarray(place)[..., None] + half[..., None] * (1.0 + nodes)
+        state = self.state(between.reshape(*k.shape[:-1], -1))
         velocity = -1j * np.exp(1j * state.theta) * state.gradient
         return np.asarray(self.cycle_angle * half * (velocity.reshape(*k.shape, nodes.size) @ weights))
 

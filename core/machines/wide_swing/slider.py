@@ -23,7 +23,16 @@ from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike
 from gearlink.core.machines.wide_swing.device import Device, DeviceGeometry
-from gearlink.core.machines.wide_swing.law import Clock, ElasticLaw, Kept, MiddleView, kept_for, require_share
+from gearlink.core.machines.wide_swing.law import (
+    Clock,
+    ElasticLaw,
+    Kept,
+    MiddleView,
+    columns_of,
+    for_each,
+    kept_for,
+    require_share,
+)
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
@@ -386,7 +395,7 @@ class SliderLaw:
 
     def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
         """sin u and cos u of every k, sin(phi/2) = -sin(gamma/4) sin u."""
-        return kept_for(self._kept, k, self._turned)
+        return kept_for(self._kept, for_each(self.clock, k), self._turned)
 
     @cached_property
     def _kept(self) -> Kept[tuple[Reals, Reals]]:
@@ -395,15 +404,19 @@ class SliderLaw:
     def _turned(self, k: Reals) -> tuple[Reals, Reals]:
         require_share(k)
         late = k > 0.5
-        sine, cosine = np.empty_like(k), np.empty_like(k)
+        sine, cosine = np.empty(k.shape), np.empty(k.shape)
         for part, fraction, clock, side in (
             (~late, k, self._from_start, 1.0),
             (late, 1.0 - k, self._from_end, -1.0),
         ):
-            v = clock.angles(fraction[part])
+            some = columns_of(part)
+            if not some.size:
+                continue
+            v, here = clock.angles(np.minimum(fraction[..., some], 0.5)), part[..., some]
             if v is None:
                 raise NoSolution(_TOO_SHARP, key="slider")
-            sine[part], cosine[part] = side * np.cos(v), np.sin(v)
+            sine[..., some] = np.where(here, side * np.cos(v), sine[..., some])
+            cosine[..., some] = np.where(here, np.sin(v), cosine[..., some])
         return sine, cosine
 
     @cached_property

@@ -10,10 +10,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.base.errors import GearlinkError, NoSolution
-from gearlink.core.base.many_designs import column, hand_in, hand_on, hand_out, in_groups, sought, stacked
+from gearlink.core.base.many_designs import hand_in, hand_on, hand_out, in_groups, sought, stacked
 from gearlink.core.base.results import keep
-from gearlink.core.machines.wide_swing.cam import KNOWN, SMALLEST, StrokeLaw, WideSwingCam, roller_room, shrinking
-from gearlink.core.machines.wide_swing.law import ElasticLaw, MiddleView
+from gearlink.core.machines.wide_swing.cam import (
+    END,
+    KNOWN,
+    MIDDLE,
+    SMALLEST,
+    START,
+    WideSwingCam,
+    roller_room,
+    shrinking,
+)
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.machines.wide_swing.oscillating_cam import NOISE, OscillatingCam, greatest_need
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
 from gearlink.core.numerics.arrays import Reals
@@ -28,7 +37,7 @@ if TYPE_CHECKING:
 _GEOMETRY = (
     "ratio", "half_sine", "half_cosine", "shortest", "longest", "reach", "stroke", "mounting", "stiffness",
 )  # fmt: skip
-_LAW = ("_rate", "energy_parameter", "velocity_peak")
+_LAW, _CLOCKS = ("_rate", "energy_parameter", "velocity_peak"), ("clock", "_clock_from_middle")
 
 
 def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> None:
@@ -42,7 +51,8 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
     for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law))):
         sought(lambda some: _find_cams(some, asked), group)
     driven = [design for design in designs if _is_driven(design)]
-    sought(_find_driven, driven)
+    for alike in in_groups(driven, lambda design: type(design.oscillating_cam.law)):
+        sought(_find_driven, alike)
     if "closed-contour" in asked:
         closed = [cam for design in designs if design.spec.cycle is not None for cam in _contours(design)]
         for cycle in in_groups(closed, _alike):
@@ -50,12 +60,13 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
 
 
 def _share_laws(designs: Sequence[WideSwingDesign]) -> None:
-    """Designs of one device and swing have one law, of which what is known serves all."""
-    known: dict[ElasticLaw, ElasticLaw] = {}
+    """Designs of one device and swing, and one slider, have one law, of which what is known serves all."""
+    known: dict[Any, Any] = {}
     for design in designs:
-        with suppress(GearlinkError):
-            law = design.motion.plain_law
-            keep(design.motion, plain_law=known.setdefault(law, law))
+        for name in ("plain_law", "slider"):
+            with suppress(GearlinkError):
+                law = getattr(design.motion, name)
+                keep(design.motion, **{name: known.setdefault(law, law)})
 
 
 def _cams_of(design: WideSwingDesign) -> list[WideSwingCam]:
@@ -68,17 +79,19 @@ def _cams_of(design: WideSwingDesign) -> list[WideSwingCam]:
     return []
 
 
-def _law_of(laws: Sequence[Any]) -> Any:
-    """All of them as one."""
+def law_of(laws: Sequence[Any]) -> Any:
+    """Laws of one class as one, that has a row for each where they are not the same."""
     if all(law is laws[0] for law in laws):
         return laws[0]
+    if isinstance(laws[0], SliderLaw):
+        return _slider_law_of(laws)
     if isinstance(laws[0], AimedLaw):
-        aimed = stacked(laws, law=_slider_law_of([law.law for law in laws]))
+        aimed = stacked(laws, law=law_of([law.law for law in laws]))
         hand_in(aimed, laws, "turns", "_at")
         return aimed
     many = _without_time(laws)
     hand_in(many, laws, *_LAW)
-    keep(many, _clock_from_middle=CosineSeries.of_many([law._clock_from_middle for law in laws]))
+    keep(many, **{name: CosineSeries.of_many([getattr(law, name) for law in laws]) for name in _CLOCKS})
     return many
 
 
@@ -92,8 +105,6 @@ def _without_time(laws: Sequence[ElasticLaw]) -> ElasticLaw:
 
 
 def _slider_law_of(laws: Sequence[SliderLaw]) -> SliderLaw:
-    if all(law is laws[0] for law in laws):
-        return laws[0]
     many = stacked(laws)
     hand_in(many, laws, "stroke", "velocity_peak", "energy_parameter", "_total")
     clocks = {name: CosineSeries.of_many([getattr(law, name) for law in laws]) for name in ("clock", "_clock_from_end")}
@@ -102,7 +113,7 @@ def _slider_law_of(laws: Sequence[SliderLaw]) -> SliderLaw:
 
 
 def _as_one(cams: Sequence[WideSwingCam]) -> WideSwingCam:
-    return stacked(cams, law=_law_of([cam.law for cam in cams]), angle_words="")
+    return stacked(cams, law=law_of([cam.law for cam in cams]), angle_words="")
 
 
 def _find_cams(cams: Sequence[WideSwingCam], asked: frozenset[str]) -> None:
@@ -168,28 +179,9 @@ def _find_tops(cams: Sequence[WideSwingCam], asked: frozenset[str]) -> None:
 # Cams on the rocker of a crank-rocker
 
 
-class _Laws:
-    """Laws of motion of many rockers: numbers are columns, and a view has a row for each."""
-
-    def __init__(self, laws: Sequence[StrokeLaw]) -> None:
-        self.laws = laws
-        self.place = laws[0].place
-        for name in ("swing", "velocity_peak", "acceleration", "middle_jerk"):
-            setattr(self, name, column([getattr(law, name) for law in laws]))
-
-    def middle_view(self, k: Reals) -> MiddleView:
-        """That of each law at its row of k, or at all of k."""
-        rows = np.broadcast_to(k, (len(self.laws), k.shape[-1]))
-        views = [law.middle_view(row) for law, row in zip(self.laws, rows, strict=True)]
-        return MiddleView(
-            *(np.stack([getattr(view, name) for view in views]) for name in MiddleView.__dataclass_fields__)
-        )
-
-
 def _is_driven(design: WideSwingDesign) -> bool:
-    """Whether the file has a cam on a crank-rocker, whose rocker drives no slider."""
-    spec = design.spec
-    if spec.drive is None or spec.slider is not None or spec.cam is None:
+    """Whether the file has a cam on a crank-rocker."""
+    if design.spec.drive is None or design.spec.cam is None:
         return False
     with suppress(GearlinkError):
         return design.oscillating_cam.ratio > 0.0
@@ -199,7 +191,8 @@ def _is_driven(design: WideSwingDesign) -> bool:
 def _driven(cams: Sequence[OscillatingCam]) -> OscillatingCam:
     """All of them as one."""
     laws, drives = [cam.law for cam in cams], [cam.drive for cam in cams]
-    many = stacked(cams, law=laws[0] if all(law is laws[0] for law in laws) else _Laws(laws), drive=stacked(drives))
+    many = stacked(cams, law=law_of(laws), drive=stacked(drives))
+    hand_in(many.law, laws, "middle_jerk")
     hand_in(many.drive, drives, "crank_angles", "_middle")
     hand_in(many, cams, "_middle", "ratio", "middle_pressure_angle")
     return many
@@ -224,17 +217,16 @@ def _find_driven_tops(designs: Sequence[WideSwingDesign]) -> None:
 
 def _find_covers(cams: Sequence[OscillatingCam]) -> None:
     """Where the roller leaves the profile; where it covers half of the stroke the cam says so itself."""
-    middle = cams[0].middle
-    ends = [(0.0, 1.0), (middle, -1.0), (middle, 1.0), (1.0, -1.0)]
+    ends = [(START, 1.0), (MIDDLE, -1.0), (MIDDLE, 1.0), (END, -1.0)]
     found = np.array([_covers(cams, stop, side) for stop, side in ends])
     rows = np.flatnonzero(~np.isnan(found).any(axis=0))
     first, before, after, last = found[:, rows, None]
     hand_on([cams[row] for row in rows.tolist()], contact=((first, before), (after, last)))
 
 
-def _covers(cams: Sequence[OscillatingCam], stop: float, side: float) -> Reals:
+def _covers(cams: Sequence[OscillatingCam], stop: int, side: float) -> Reals:
     """`OscillatingCam.cover` of each cam; NaN of those that it refuses."""
-    found = np.full(len(cams), stop)
+    found = np.array([cam.places[stop] for cam in cams])
     estimates = np.array([cam.left(stop) for cam in cams])
     bulging = np.array([cam.stops[stop][0] > 0.0 for cam in cams])
     small = bulging & (estimates < SMALLEST)
@@ -242,24 +234,24 @@ def _covers(cams: Sequence[OscillatingCam], stop: float, side: float) -> Reals:
     rows = np.flatnonzero(bulging & ~small)
     if rows.size:
         some = [cams[row] for row in rows.tolist()]
-        found[rows] = stop + side * _ways(some, stop, side, estimates[rows])
+        found[rows] += side * _ways(some, stop, side, estimates[rows])
     return found
 
 
-def _ways(cams: Sequence[OscillatingCam], stop: float, side: float, estimates: Reals) -> Reals:
+def _ways(cams: Sequence[OscillatingCam], stop: int, side: float, estimates: Reals) -> Reals:
     """Ways from a stop over which the roller, standing there, covers the profile, as `covered` finds them."""
     many = _driven(cams)
     hand_in(many, cams, "stops")
 
     def room(t: Reals) -> Reals:
-        return roller_room(many.step(stop + side * t, stop), many.roller_radius)
+        return roller_room(many.step(many.places[stop] + side * t, stop), many.roller_radius)
 
-    far = many.far_from(stop, side)
-    each = [shrinking(far, 0.01 * estimate / far) for estimate in estimates.tolist()]
-    t = max(each, key=len)
-    rooms = room(np.broadcast_to(t, (len(cams), t.size)))
-    looked_at = np.arange(t.size) < np.array([[part.size] for part in each])
-    cut = (rooms < 0.0) & looked_at
+    far = np.array([cam.far_from(stop, side) for cam in cams])
+    shares = 0.01 * estimates / far
+    sizes = [shrinking(1.0, share).size for share in shares.tolist()]
+    t = shrinking(far[:, None], float(shares.min()))
+    rooms = room(t)
+    cut = (rooms < 0.0) & (np.arange(t.shape[1]) < np.array(sizes)[:, None])
     at = np.argmax(cut, axis=1)
     ways = np.where(cut.any(axis=1), np.nan, 0.0)
     ways[rooms[:, 0] <= 0.0] = np.nan
@@ -268,7 +260,7 @@ def _ways(cams: Sequence[OscillatingCam], stop: float, side: float, estimates: R
         some = [cams[row] for row in rows.tolist()]
         many = _driven(some)
         hand_in(many, some, "stops")
-        low, high = t[at[rows]], t[at[rows] - 1]
+        low, high = t[rows, at[rows]], t[rows, at[rows] - 1]
         ends = rooms[rows, at[rows]], rooms[rows, at[rows] - 1]
         known = KNOWN + NOISE / low
         ways[rows] = bracketed_roots(lambda t: room(t[:, None])[:, 0], low, high, ends=ends, tolerance=known)

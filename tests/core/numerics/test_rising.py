@@ -37,3 +37,12 @@ def test_place_stays_between_the_neighbours_where_the_function_stands() -> None:
         left = np.clip(np.searchsorted(at**5, values, side="right") - 1, 0, len(at) - 2)
         assert np.all((found >= at[left]) & (found <= at[left + 1]))
         assert np.all(np.diff(found) >= 0.0)
+
+
+def test_rows_are_read_as_each_alone() -> None:
+    sizes, values = np.array([[0.5], [1.0], [1.7]]), np.linspace(0.0, 1.0, 41)
+    many = RisingTable(_PLACES, np.sinh(sizes * _PLACES), sizes * np.cosh(sizes * _PLACES))
+    found = many.places_of(np.broadcast_to(values, (3, 41)))
+    for row in range(3):
+        alone = RisingTable(_PLACES, many.values[row], many.slopes[row])
+        np.testing.assert_array_equal(found[row], alone.places_of(values))

@@ -118,3 +118,17 @@ def test_a_last_newton_step_below_a_billionth_is_not_confirmed() -> None:
     start[0] *= 1.0 + 1e-6
     assert newton_places(excess, start, 5.0) == pytest.approx(np.sqrt(wanted), rel=4e-16, abs=0.0)
     assert asked == [3, 1]
+
+
+def test_places_in_rows_rest_each_by_itself() -> None:
+    wanted, asked = np.array([[2.0, 9.0, 0.25], [3.0, 16.0, 4.0]]), []
+
+    def excess(x: Reals, columns: NDArray[np.intp]) -> tuple[Reals, Reals]:
+        asked.append(columns.tolist())
+        return x * x - wanted[:, columns], 2.0 * x
+
+    start = np.sqrt(wanted) * np.array([[1.0, 1.0, 1.0], [1.0, 1.1, 1.0]])
+    found = newton_places(excess, start, 5.0)
+    assert found == pytest.approx(np.sqrt(wanted), rel=4e-16, abs=0.0)
+    assert asked[0] == [0, 1, 2]
+    assert set(map(tuple, asked[1:])) == {(1,)}

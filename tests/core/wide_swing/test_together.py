@@ -10,8 +10,10 @@ import random
 from typing import Any
 
 import factory
+import numpy as np
 import pytest
 
+from gearlink.core.machines.wide_swing.together import law_of
 from gearlink.core.studies.explore.base import Base, single, singles
 
 CAM = {"cam.center_distance": 20.0, "cam.roller_radius": 1.5}
@@ -29,6 +31,8 @@ STUDIES: dict[str, tuple[str, dict[str, float]]] = {
         LAW | {"swing": 4.0, "drive.crank": 2.0, "drive.frame": 4.0},
     ),
     "carried by a crank-rocker": ("wide_swing_oscillating_cam", CAM | {"drive.coupler": 10.0}),
+    "slider and crank-rocker": ("wide_swing_slider_drive", SLIDER | {"drive.crank": 2.0, "unloader.pivot_ratio": 0.1}),
+    "one slider and crank-rockers": ("wide_swing_slider_drive", CAM | {"drive.coupler": 10.0}),
 }
 OF_CONTACT = ("transition_zone", "min_curvature_radius")
 
@@ -100,9 +104,13 @@ def test_cams_of_sliders_and_free_sectors_are_found_together() -> None:
         assert all("free" in vars(closed) for closed in design.cycle.contours.values())
 
 
-@pytest.mark.parametrize("widths", [CAM, CAM | {"swing": 5.0}])
-def test_cams_on_crank_rockers_are_found_together(widths: dict[str, float]) -> None:
-    for design in _found("wide_swing_oscillating_cam", widths, "max_pressure_angle"):
+@pytest.mark.parametrize(("name", "widths"), [
+    ("wide_swing_oscillating_cam", CAM),
+    ("wide_swing_oscillating_cam", CAM | {"swing": 5.0}),
+    ("wide_swing_slider_drive", {"slider.mass": 2.0, "cam.roller_radius": 1.5}),
+])  # fmt: skip
+def test_cams_on_crank_rockers_are_found_together(name: str, widths: dict[str, float]) -> None:
+    for design in _found(name, widths, "max_pressure_angle"):
         assert {"stops", "contact", "tops", "max_pressure_angle"} <= set(vars(design.oscillating_cam))
         assert "way_back" in vars(design.unloading)
 
@@ -127,6 +135,23 @@ def test_designs_of_one_device_and_swing_share_their_law() -> None:
     designs = _found("wide_swing_twin_cam", CAM, "max_radius")
     assert len({id(design.motion.plain_law) for design in designs}) == 1
     assert len({id(design.motion.plain_law) for design in _found("wide_swing_twin_cam", LAW, "max_radius")}) == 9
+
+
+def test_laws_of_many_rockers_are_read_backwards_together() -> None:
+    """k where each law has an angle, by the times that nothing has to be solved for."""
+    own = random.Random(5)
+    k = np.array([[own.random() for _ in range(40)] for _ in range(9)])
+    k[:, :4] = 0.0, 0.25, 0.5, 1.0
+    for name in ("wide_swing_twin_cam", "wide_swing_slider"):
+        laws = [design.motion.law for design in _found(name, {"swing": 8.0, "unloader.pivot_ratio": 0.3})]
+        sine, cosine = law_of(laws).pendulum(k)
+        for row, law in enumerate(laws):
+            if name == "wide_swing_slider":
+                found = law.share_from(np.arctan2(cosine[row], sine[row]), late=False)
+            else:
+                side = np.where(k[row] > 0.5, 1.0, -1.0)
+                found = 0.5 + law.share_from_middle(side * np.arctan2(sine[row], cosine[row]))
+            assert found == pytest.approx(k[row], rel=0.0, abs=1e-14)
 
 
 @pytest.mark.slow
