@@ -86,11 +86,15 @@ class CosineSeries:
 
     def _integrals(self, z: Reals) -> Reals:
         """Of many."""
-        wave = np.arange(1, self.coefficients.shape[1]) * (math.pi / self.span)
-        found, terms = self.coefficients[:, :1] * z, 0.0
-        for j, weight in enumerate((self.coefficients[:, 1:] / wave).T):
-            terms = terms + weight[:, None] * np.sin(z * wave[:, j : j + 1])
-        return np.asarray(found + terms)
+        first = math.pi / self.span
+        weights = self.coefficients[:, 1:] / (np.arange(1, self.coefficients.shape[1]) * first)
+        # the waves are powers of the first: a product each, and no sine; all sines keep the digits of the first one
+        wave = np.exp(1j * first * z)
+        total = np.zeros_like(wave)
+        for weight in weights.T[::-1]:
+            total += weight[:, None]
+            total *= wave
+        return np.asarray(self.coefficients[:, :1] * z + total.imag)
 
     @classmethod
     def of_many(cls, series: Sequence[CosineSeries]) -> CosineSeries:

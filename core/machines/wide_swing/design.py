@@ -6,7 +6,6 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from operator import attrgetter
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -39,7 +38,7 @@ from gearlink.core.machines.wide_swing.codes import (
 from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
 from gearlink.core.machines.wide_swing.law import legacy_law
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH, Motion
-from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, aimed_law, greatest_need, need_home
+from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, aimed_law, greatest_need
 from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, OF_CYLINDER, OF_GRAVITY, QUANTITIES, names
 from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
 from gearlink.core.machines.wide_swing.strokes import AnyCam
@@ -394,7 +393,7 @@ LAW = {
     "force": "unloading.force",
     "spring_rate": "unloading.spring_rate",
 }
-TORQUE = {"power_peak": "unloading.power_peak", "drive_torque_peak": "unloading.drive_torque_peak"}
+TORQUE = {"power_peak": "motion.law.power_peak", "drive_torque_peak": "unloading.drive_torque_peak"}
 SHAFT = {
     "dynamic_coefficient": "unloading.dynamic_coefficient",
     "drive_balancing_ratio": "unloading.drive_balancing_ratio",
@@ -688,17 +687,22 @@ class WideSwingDesign(Design):
     def oscillating_cam(self) -> OscillatingCam:
         """The cam on the rocker of a crank-rocker."""
         section, motion, drive = self.section, self.motion, self.motion.drive
-        law = motion.plain_law if self.spec.slider is None else aimed_law(motion.slider, drive)
+        law = motion.plain_law if self.spec.slider is None else self.aimed_law
         with at_key("drive"):
             return OscillatingCam(drive, law, section.center_distance, section.roller_radius)
 
     @cached_property
     def slider_cam(self) -> WideSwingCam:
         """The cam of a rocker that drives a slider, which passes the line of centres where it is fastest."""
-        section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
+        section, law, angle = self.section, self.aimed_law, self.motion.cycle_angle
         with at_key("cycle_angle"):
-            aimed = AimedLaw(law, fastest_place(law))
-            return WideSwingCam("twin-cam", aimed, angle, section.center_distance, section.roller_radius)
+            return WideSwingCam("twin-cam", law, angle, section.center_distance, section.roller_radius)
+
+    @cached_property
+    def aimed_law(self) -> AimedLaw:
+        """The law of a rocker with a slider, as its cam sees it."""
+        law = self.motion.slider
+        return AimedLaw(law, fastest_place(law)) if self.spec.drive is None else aimed_law(law, self.motion.drive)
 
     @cached_property
     def shafts(self) -> ParallelShafts:
@@ -789,15 +793,8 @@ class WideSwingDesign(Design):
         """Maximum force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
         if self.spec.slider is None and self.spec.drive is None:
             return self._even_contact_force
-        found = []
-        for cam in self.cams.values():
-            if cam is self.cam or self.has_zone(cam):
-                wanted: list[tuple[Callable[[Reals], Reals], bool]]
-                wanted = [(partial(self.unloading.contact_force, cam), True)]
-                if cam is self.cam and self.spec.drive is not None:
-                    wanted.append((self._force_home, True))
-                found += extremes_of_parts(wanted, self.contact_of(cam), samples=128)
-        return max(each.value for of_part in found for each in of_part)
+        self.contact_of(self.cam)
+        return self.unloading.greatest_force(self.cam)
 
     @property
     def _even_contact_force(self) -> float:
@@ -808,11 +805,6 @@ class WideSwingDesign(Design):
                 self.contact_of(cam)
                 found.append(self.unloading.even_contact_force(cam))
         return max(found)
-
-    def _force_home(self, k: Reals) -> Reals:
-        """The same on the way home, where an oscillating cam stands as at k."""
-        cam = self.oscillating_cam
-        return self.unloading.contact_force(cam, k, need=need_home(cam, k))
 
     @cached_property
     def impact(self) -> FlankImpact:
@@ -1329,7 +1321,7 @@ class WideSwingDesign(Design):
 
     @classmethod
     def find_together(cls, designs: Sequence[WideSwingDesign], names: Sequence[str]) -> None:
-        """Cams that turn evenly are sought together."""
+        """Extremes of laws, and of cams, are sought together."""
         from gearlink.core.machines.wide_swing.together import find_together
 
         find_together(designs, frozenset(name.partition("[")[0] for name in names))

@@ -25,6 +25,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing.device import Device, DeviceGeometry, Gravity, Pneumatic, Spring, require_swing
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
+from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series
 from gearlink.core.numerics.roots import roots_on
 from gearlink.core.numerics.roots_sweep import newton_places
@@ -227,6 +228,21 @@ class ElasticLaw:
         cosines = np.array([0.0, *(math.sqrt((start - s) / start) for s in turns)])
         return float(np.max(self._acceleration(sines, cosines)))
 
+    @property
+    def torque_peak(self) -> float:
+        """The same: the device bears the inertia of the rocker."""
+        return self.acceleration_peak
+
+    @cached_property
+    def power_peak(self) -> float:
+        """max(b c), pi^3/8 = 3.876 for the harmonic law."""
+
+        def power(v: Reals) -> Reals:
+            sine, cosine = np.cos(v), np.sin(v)
+            return np.asarray(self._velocity(sine, cosine) * self._acceleration(sine, cosine))
+
+        return maximum_over(power, 0.0, 0.5 * math.pi, samples=128).value
+
     def _torque_peaks(self, start: float) -> list[float]:
         """Places s = sin^2(phi/2) inside the swing where the device torque is stationary."""
         g = self.geometry
@@ -245,6 +261,10 @@ class ElasticLaw:
         bend = (g.shortest + 2.0 * s) * (g.shortest - 2.0 * g.ratio * s)
         lever = 4.0 * g.ratio * s * (1.0 - s) * float(g.length(sine)[0])
         return float(g.force(sine)[0]) * bend + g.stiffness * lever
+
+    def device_torque(self, k: Reals) -> Reals:
+        """Torque of the device over J gamma/T^2: c."""
+        return self.invariants(k, 2)[2]
 
     def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity, acceleration and jerk invariants, as many as asked for.

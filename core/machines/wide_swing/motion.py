@@ -162,9 +162,7 @@ class Motion:
         Parameters
             k : (N,) array - fractions of the stroke
         """
-        if self.spec.slider is None:
-            return self.plain_law.invariants(k, 2)[2]
-        return self.slider.device_torque(k)
+        return self.law.device_torque(k)
 
     @property
     def reference_inertia(self) -> float:

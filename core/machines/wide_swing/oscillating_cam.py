@@ -7,9 +7,10 @@ turns evenly; the wide-swing rocker follows its law of motion over the same stro
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -151,18 +152,31 @@ def aimed_law(law: SliderLaw, drive: CrankRockerDrive) -> AimedLaw:
     Notes
         Without such a place within 0.2 of the stroke of mid-swing, k* is that of mid-swing.
     """
-    middle = law.middle_place
-
-    def bend(k: Reals) -> Reals:
-        _, b, c = law.invariants(k)
-        _, first, second = drive.motion(k)
-        return np.asarray(c * first - b * second)
-
-    k = np.linspace(max(middle - _ASIDE, 1e-3), min(middle + _ASIDE, 1.0 - 1e-3), 161)
-    values = bend(k)
+    k = places_beside(law.middle_place)
+    values = bend(law, drive, k)
     turns = np.flatnonzero(values[:-1] * values[1:] <= 0.0)
-    found = [bracketed_root(lambda at: float(bend(np.array([at]))[0]), float(k[i]), float(k[i + 1])) for i in turns]
-    return AimedLaw(law, min(found, key=lambda at: abs(at - middle), default=middle), near=0.0)
+
+    def bend_at(at: float) -> float:
+        return float(bend(law, drive, np.array([at]))[0])
+
+    return aimed_at(law, [bracketed_root(bend_at, float(k[i]), float(k[i + 1])) for i in turns])
+
+
+def aimed_at(law: SliderLaw, places: Sequence[float]) -> AimedLaw:
+    """The law seen from the one of these places that is nearest to mid-swing; from there where there is none."""
+    middle = law.middle_place
+    return AimedLaw(law, min(places, key=lambda at: abs(at - middle), default=middle), near=0.0)
+
+
+def places_beside(middle: Any) -> Reals:
+    """Fractions of the stroke about mid-swing, of many a row for each."""
+    return np.linspace(np.maximum(middle - _ASIDE, 1e-3), np.minimum(middle + _ASIDE, 1.0 - 1e-3), 161, axis=-1)
+
+
+def bend(law: SliderLaw, drive: CrankRockerDrive, k: Reals) -> Reals:
+    """phi'' chi' - phi' chi'', over the swing."""
+    (b, c), (_, first, second) = law.rates(k), drive.motion(k)
+    return np.asarray(c * first - b * second)
 
 
 @dataclass(frozen=True, eq=False)
@@ -554,8 +568,8 @@ def need_home(cam: OscillatingCam, k: Reals) -> Reals:
     back = way_home(cam, crank_angle(cam, k))
     span = cam.drive.crank_span
     if isinstance(cam.law, AimedLaw):
-        law = cam.law.law
-        pace = law.inertia(k) * law.invariants(k, 1)[1] / law.device_torque(k)
+        way, torque = cam.law.law.push(k)
+        pace = way / torque
     else:
         view = cam.law.middle_view(k)
         pace = view.velocity / view.acceleration

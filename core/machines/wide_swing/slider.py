@@ -33,12 +33,13 @@ from gearlink.core.machines.wide_swing.law import (
     kept_for,
     require_share,
 )
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, number_of
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
-from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.linkages.slider_crank import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
@@ -272,29 +273,48 @@ class SliderLaw:
         """k at which the rocker passes mid-swing."""
         return self.share_at(0.5 * math.pi)
 
-    @cached_property
+    @property
     def velocity_peak(self) -> float:
         """Largest velocity invariant of the rocker [-]."""
-        return self._most(lambda sine, cosine: self._rates(sine, cosine)[0])
+        return self.peaks[0].value
 
-    @cached_property
+    @property
     def acceleration_peak(self) -> float:
         """Largest magnitude of the rocker's acceleration invariant [-]."""
-        return self._most(lambda sine, cosine: np.abs(self._rates(sine, cosine)[1]))
+        return self.peaks[1].value
 
-    @cached_property
+    @property
     def slider_velocity_peak(self) -> float:
         """Largest magnitude of the slider's velocity invariant [-]."""
-        return self._most(lambda sine, cosine: np.abs(self._slider_rates(sine, cosine)[0]))
+        return self.peaks[2].value
 
-    @cached_property
+    @property
     def slider_acceleration_peak(self) -> float:
         """Largest magnitude of the slider's acceleration invariant [-]."""
-        return self._most(lambda sine, cosine: np.abs(self._slider_rates(sine, cosine)[1]))
+        return self.peaks[3].value
 
-    def _most(self, of: Callable[[Reals, Reals], Reals]) -> float:
-        """Maximum over the stroke of a function of sin u and cos u."""
-        return maximum_over(lambda v: of(np.cos(v), np.sin(v)), 0.0, math.pi, samples=128).value
+    @property
+    def torque_peak(self) -> float:
+        """max |m|, m the torque of the device over J_ref gamma/T^2 [-]."""
+        return self.peaks[4].value
+
+    @property
+    def power_peak(self) -> float:
+        """max |m b| [-]."""
+        return self.peaks[5].value
+
+    @cached_property
+    def peaks(self) -> tuple[Extreme, ...]:
+        """Maxima over the stroke, of one motion: of b, |c|, |b_s|, |c_s|, |m| and |m b|."""
+
+        def each(v: Reals) -> tuple[Reals, ...]:
+            b, c, rate, change = self._motion(np.cos(v), np.sin(v))
+            torque = self._torque(b, c, rate, change)
+            return b, c, rate * b, rate * c + change * b**2, torque, torque * b
+
+        of = kept_last(each)
+        wanted = [(lambda v, i=i: np.abs(of(v)[i]), True) for i in range(6)]
+        return tuple(extremes_over(wanted, 0.0, math.pi, samples=128))
 
     @cached_property
     def fastest_turn(self) -> float:
@@ -339,15 +359,23 @@ class SliderLaw:
         Raises
             NoSolution - for k outside 0 to 1
         """
-        sine, cosine = self.pendulum(k)
-        b, c = self._rates(sine, cosine)
-        rate, slope = self._slider_rate(self._angle(sine, cosine))
-        torque: Reals = self._inertia(rate) * c + (1.0 - self.rocker_share) * rate * slope * b * b
-        return torque
+        return self._torque(*self._motion(*self.pendulum(k)))
+
+    def _torque(self, b: Reals, c: Reals, rate: Reals, change: Reals) -> Reals:
+        return np.asarray(self._inertia(rate) * c + (1.0 - self.rocker_share) * rate * change * b * b)
+
+    def push(self, k: Reals) -> tuple[Reals, Reals]:
+        """j b, of rocker and slider, and that torque of the device."""
+        b, c, rate, change = self._motion(*self.pendulum(k))
+        return np.asarray(self._inertia(rate) * b), self._torque(b, c, rate, change)
 
     def kinetic(self, k: Reals) -> Reals:
         """Energy of motion over J_ref (gamma/T)^2/2: j b^2."""
-        return np.asarray(self.inertia(k) * self.invariants(k, 1)[1] ** 2)
+        return np.asarray(self.inertia(k) * self.rates(k)[0] ** 2)
+
+    def rates(self, k: Reals) -> tuple[Reals, Reals]:
+        """b and c at fractions of the stroke."""
+        return self._rates(*self.pendulum(k))
 
     def slider_invariants(self, k: Reals) -> tuple[Reals, Reals, Reals]:
         """Displacement, velocity and acceleration invariants of the slider.
@@ -367,8 +395,7 @@ class SliderLaw:
         return (place - start) / self.stroke, *self._slider_rates(sine, cosine)
 
     def _slider_rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
-        b, c = self._rates(sine, cosine)
-        rate, change = self._slider_rate(self._angle(sine, cosine))
+        b, c, rate, change = self._motion(sine, cosine)
         return rate * b, rate * c + change * b**2
 
     def rates_at(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals, Reals]:
@@ -384,6 +411,10 @@ class SliderLaw:
         return (self._from_end if late else self._from_start).time(v) / self._total
 
     def _rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
+        return self._motion(sine, cosine)[:2]
+
+    def _motion(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals, Reals, Reals]:
+        """b and c, b_kp and its derivative with respect to a."""
         g, parameter = self.geometry, self.energy_parameter
         rate, change = self._slider_rate(self._angle(sine, cosine))
         inertia = self._inertia(rate)
@@ -391,7 +422,7 @@ class SliderLaw:
         energy = g.energy(sine, cosine)
         push = self.swing * g.force(sine) * g.lever(sine, cosine)
         b = np.sqrt(parameter * energy / inertia)
-        return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia
+        return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia, rate, change
 
     def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
         """sin u and cos u of every k, sin(phi/2) = -sin(gamma/4) sin u."""
@@ -470,18 +501,19 @@ class AimedLaw:
     @cached_property
     def _there(self) -> tuple[Reals, Reals]:
         """sin u and cos u at k*."""
-        return self.law.pendulum(np.array([self.place]))
+        return self.law.pendulum(np.atleast_1d(self.place))
 
     @cached_property
     def turns(self) -> tuple[float, float]:
         """Angle of the law at the start and the end of the stroke, from k* [rad]."""
-        (sine,), (cosine,) = self._there
-        return -math.atan2(cosine, sine), math.atan2(cosine, -sine)
+        sine, cosine = self._there
+        return number_of(-np.arctan2(cosine, sine)), number_of(np.arctan2(cosine, -sine))
 
     @cached_property
     def _at(self) -> tuple[float, float, float]:
         """Rocker angle from mid-swing [rad], b and c at k*."""
-        return tuple(float(x[0]) for x in self.law.rates_at(*self._there))  # type: ignore[return-value]
+        angle, b, c = map(number_of, self.law.rates_at(*self._there))
+        return angle, b, c
 
     @property
     def offset(self) -> float:
@@ -501,8 +533,9 @@ class AimedLaw:
     @cached_property
     def middle_jerk(self) -> float:
         """dc/dk at k*."""
-        before, after = self.law.invariants(np.array([self.place - _STEP, self.place + _STEP]))[2]
-        return float(after - before) / (2.0 * _STEP)
+        beside = np.concatenate(np.atleast_1d(self.place - _STEP, self.place + _STEP), axis=-1)
+        found: float = number_of(np.diff(self.law.rates(beside)[1])) / (2.0 * _STEP)
+        return found
 
     def middle_view(self, k: Reals) -> MiddleView:
         """The motion seen from k*, its angle counted from there.

@@ -1,16 +1,17 @@
-"""What many wide swings seek at once: cams that turn evenly, as one whose numbers are columns."""
+"""What many wide swings seek at once: their laws and cams, as one whose numbers are columns."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import lru_cache, partial
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.core.base.errors import GearlinkError, NoSolution
-from gearlink.core.base.many_designs import hand_in, hand_on, hand_out, in_groups, sought, stacked
+from gearlink.core.base.many_designs import column, hand_in, hand_on, hand_out, in_groups, sought, stacked
 from gearlink.core.base.results import keep
 from gearlink.core.machines.wide_swing.cam import (
     END,
@@ -23,8 +24,17 @@ from gearlink.core.machines.wide_swing.cam import (
     shrinking,
 )
 from gearlink.core.machines.wide_swing.law import ElasticLaw
-from gearlink.core.machines.wide_swing.oscillating_cam import NOISE, OscillatingCam, greatest_need
+from gearlink.core.machines.wide_swing.oscillating_cam import (
+    NOISE,
+    CrankRockerDrive,
+    OscillatingCam,
+    aimed_at,
+    bend,
+    greatest_need,
+    places_beside,
+)
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
+from gearlink.core.machines.wide_swing.torques import Unloading
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.periodic import CosineSeries
 from gearlink.core.numerics.roots_sweep import bracketed_roots
@@ -34,9 +44,15 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.strokes import AnyCam
 
+_OF_POWER = frozenset(("power_peak", "drive_torque_peak"))
+_OF_LAWS = _OF_POWER | {
+    *("velocity_peak", "acceleration_peak", "slider_velocity_peak", "slider_acceleration_peak", "dynamic_coefficient"),
+}
+"""Quantities by extremes of the laws of rockers with sliders."""
 _GEOMETRY = (
     "ratio", "half_sine", "half_cosine", "shortest", "longest", "reach", "stroke", "mounting", "stiffness",
 )  # fmt: skip
+_OF_FORCE = "inertia", "swing", "stroke_time", "device_angle"
 _LAW, _CLOCKS = ("_rate", "energy_parameter", "velocity_peak"), ("clock", "_clock_from_middle")
 
 
@@ -46,27 +62,78 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
     Parameters
         asked : names of the quantities and checks that will be asked for
     """
-    _share_laws(designs)
+    _share_laws(designs, asked)
     cams = [cam for design in designs for cam in _cams_of(design) if cam.given_rocker_radius is None]
     for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law))):
         sought(lambda some: _find_cams(some, asked), group)
     driven = [design for design in designs if _is_driven(design)]
     for alike in in_groups(driven, lambda design: type(design.oscillating_cam.law)):
         sought(_find_driven, alike)
+    if "contact_force" in asked:
+        moving = [design for design in designs if _is_pressed(design)]
+        sought(_find_forces, moving)
     if "closed-contour" in asked:
         closed = [cam for design in designs if design.spec.cycle is not None for cam in _contours(design)]
         for cycle in in_groups(closed, _alike):
             sought(_find_free_sectors, cycle)
 
 
-def _share_laws(designs: Sequence[WideSwingDesign]) -> None:
+def _share_laws(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> None:
     """Designs of one device and swing, and one slider, have one law, of which what is known serves all."""
     known: dict[Any, Any] = {}
     for design in designs:
-        for name in ("plain_law", "slider"):
+        for name in ("plain_law",) if design.spec.slider is None else ("plain_law", "slider"):
             with suppress(GearlinkError):
                 law = getattr(design.motion, name)
                 keep(design.motion, **{name: known.setdefault(law, law)})
+    sliding = [law for law in known if isinstance(law, SliderLaw)]
+    if sliding and asked & _OF_LAWS:
+        sought(lambda laws: hand_out(law_of(laws), laws, "peaks"), sliding)
+    elif asked & _OF_POWER:
+        sought(lambda laws: hand_out(law_of(laws), laws, "power_peak"), list(known))
+    with_cam = [design for design in designs if design.spec.cam is not None and _has_slider(design)]
+    if with_cam and with_cam[0].spec.drive is not None:
+        sought(_aim, with_cam)
+    aimed: dict[AimedLaw, AimedLaw] = {}
+    for design in with_cam:
+        with suppress(GearlinkError):
+            keep(design, aimed_law=aimed.setdefault(design.aimed_law, design.aimed_law))
+    sought(_find_aimed, list(aimed))
+
+
+def _has_slider(design: WideSwingDesign) -> bool:
+    with suppress(GearlinkError):
+        return design.spec.slider is not None and design.motion.slider.stroke > 0.0
+    return False
+
+
+def _aim(designs: Sequence[WideSwingDesign]) -> None:
+    """Where the rollers of cams on a crank-rocker pass the line of centres."""
+    laws, drives = [design.motion.slider for design in designs], [design.motion.drive for design in designs]
+    k = places_beside(np.array([law.middle_place for law in laws]))
+    values = bend(law_of(laws), _drive_of(drives), k)
+    rows, columns = np.nonzero(values[:, :-1] * values[:, 1:] <= 0.0)
+    found: list[list[float]] = [[] for _ in designs]
+    if rows.size:
+        law, drive = law_of([laws[row] for row in rows.tolist()]), _drive_of([drives[row] for row in rows.tolist()])
+        ends = (values[rows, columns], values[rows, columns + 1])
+        low, high = k[rows, columns], k[rows, columns + 1]
+        roots = bracketed_roots(lambda at: bend(law, drive, at[:, None])[:, 0], low, high, ends=ends)
+        for row, place in zip(rows.tolist(), roots.tolist(), strict=True):
+            found[row].append(place)
+    for design, law, places in zip(designs, laws, found, strict=True):
+        keep(design, aimed_law=aimed_at(law, places))
+
+
+def _find_aimed(laws: Sequence[AimedLaw]) -> None:
+    many = stacked(laws, law=law_of([law.law for law in laws]))
+    hand_out(many, laws, "turns", "_at", "middle_jerk")
+
+
+def _drive_of(drives: Sequence[CrankRockerDrive]) -> CrankRockerDrive:
+    many = stacked(drives)
+    hand_in(many, drives, "crank_angles", "_middle")
+    return many
 
 
 def _cams_of(design: WideSwingDesign) -> list[WideSwingCam]:
@@ -81,8 +148,12 @@ def _cams_of(design: WideSwingDesign) -> list[WideSwingCam]:
 
 def law_of(laws: Sequence[Any]) -> Any:
     """Laws of one class as one, that has a row for each where they are not the same."""
-    if all(law is laws[0] for law in laws):
-        return laws[0]
+    return laws[0] if all(law is laws[0] for law in laws) else _many_laws(tuple(laws))
+
+
+@lru_cache(maxsize=4)
+def _many_laws(laws: tuple[Any, ...]) -> Any:
+    """Kept for the next search among the same: the places that it has for times are many."""
     if isinstance(laws[0], SliderLaw):
         return _slider_law_of(laws)
     if isinstance(laws[0], AimedLaw):
@@ -106,7 +177,7 @@ def _without_time(laws: Sequence[ElasticLaw]) -> ElasticLaw:
 
 def _slider_law_of(laws: Sequence[SliderLaw]) -> SliderLaw:
     many = stacked(laws)
-    hand_in(many, laws, "stroke", "velocity_peak", "energy_parameter", "_total")
+    hand_in(many, laws, "stroke", "energy_parameter", "_total")
     clocks = {name: CosineSeries.of_many([getattr(law, name) for law in laws]) for name in ("clock", "_clock_from_end")}
     keep(many, _half=_without_time([law._half for law in laws]), **clocks)
     return many
@@ -190,10 +261,9 @@ def _is_driven(design: WideSwingDesign) -> bool:
 
 def _driven(cams: Sequence[OscillatingCam]) -> OscillatingCam:
     """All of them as one."""
-    laws, drives = [cam.law for cam in cams], [cam.drive for cam in cams]
-    many = stacked(cams, law=law_of(laws), drive=stacked(drives))
+    laws = [cam.law for cam in cams]
+    many = stacked(cams, law=law_of(laws), drive=_drive_of([cam.drive for cam in cams]))
     hand_in(many.law, laws, "middle_jerk")
-    hand_in(many.drive, drives, "crank_angles", "_middle")
     hand_in(many, cams, "_middle", "ratio", "middle_pressure_angle")
     return many
 
@@ -265,6 +335,34 @@ def _ways(cams: Sequence[OscillatingCam], stop: int, side: float, estimates: Rea
         known = KNOWN + NOISE / low
         ways[rows] = bracketed_roots(lambda t: room(t[:, None])[:, 0], low, high, ends=ends, tolerance=known)
     return ways
+
+
+def _is_pressed(design: WideSwingDesign) -> bool:
+    """Whether the roller touches a cam on a crank-rocker, or one of a rocker that drives a slider."""
+    spec = design.spec
+    if spec.cam is None or (spec.drive is None and spec.slider is None):
+        return False
+    with suppress(GearlinkError):
+        design.contact_of(design.cam)
+        return True
+    return False
+
+
+def _find_forces(designs: Sequence[WideSwingDesign]) -> None:
+    cams: list[Any] = [design.cam for design in designs]
+    if designs[0].spec.drive is None:
+        many: Any = _as_one(cams)
+    else:
+        many = _driven(cams)
+        hand_in(many, cams, "stops")
+    hand_in(many, cams, "contact")
+    law = many.law.law if isinstance(many.law, AimedLaw) else many.law
+    motions = [design.motion for design in designs]
+    columns = {name: column([getattr(motion, name) for motion in motions]) for name in _OF_FORCE}
+    unloading = Unloading(designs[0].spec, SimpleNamespace(torque=law.device_torque, **columns))  # type: ignore[arg-type]
+    reserve = column([design.unloading.size.reserve for design in designs])
+    keep(unloading, size=SimpleNamespace(reserve=reserve))
+    hand_on(designs, contact_force=unloading.greatest_force(many))
 
 
 def _contours(design: WideSwingDesign) -> list[ClosedCam]:

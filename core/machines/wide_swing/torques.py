@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,11 +23,13 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.wide_swing.codes import FLANK_IMPACT
 from gearlink.core.machines.wide_swing.law import LegacyLaw, legacy_law
+from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, need_home
 from gearlink.core.machines.wide_swing.sizing import DeviceSize
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import Extreme, maximum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, greatest, maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_coefficients, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.together import kept_last
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cam import WideSwingCam
@@ -80,16 +83,6 @@ class Unloading:
 
     # Torque and drive
 
-    @cached_property
-    def power_peak(self) -> float:
-        """max(b c), pi^3/8 = 3.876 for the harmonic law; with a slider max |m b|, m the torque over J_ref gamma/T^2."""
-        motion = self.motion
-
-        def power(k: Reals) -> Reals:
-            return np.abs(motion.law.invariants(k, 1)[1] * motion.torque(k))
-
-        return maximum_over(power, 0.0, 1.0, samples=256).value
-
     @property
     def drive_torque_peak(self) -> float:
         """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m].
@@ -98,7 +91,7 @@ class Unloading:
         """
         motion = self.motion
         scale = motion.inertia * motion.swing**2 / (motion.stroke_time**2 * motion.device_angle)
-        return scale * self.power_peak
+        return scale * motion.law.power_peak
 
     def _left(self, speed_ratio: Reals) -> Reals:
         """Torque that is left on the rocker axis over n/n0, as a part of the inertia torque at n0."""
@@ -157,7 +150,7 @@ class Unloading:
             NoSolution - at the design speed, where the drive is rigid to it
         """
         shaft, found = self._shaft, []
-        calculated = peak_of(self._torque_series)
+        calculated = self.motion.law.torque_peak
         for ratio in speed_ratios:
             stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time / ratio
             if ratio < 1.0 and stiffness > STIFFEST:
@@ -271,9 +264,22 @@ class Unloading:
             strokes, T that of the cam's own. With a slider the force reverses at mid-swing, the roller where the
             rocker is fastest: between the two the force is negative.
         """
+        return np.asarray(self._pressing(cam, speed_ratio, need) * self._along(cam, k))
+
+    def _along(self, cam: AnyCam, k: Reals) -> Reals:
+        """m/cos delta, negative in run-out."""
         torque = self.motion.torque(k) * np.where(k < cam.middle, 1.0, -1.0)
-        force: Reals = self._pressing(cam, speed_ratio, need) * torque / np.cos(cam.pressure_angle(k))
-        return force
+        return np.asarray(torque / np.cos(cam.pressure_angle(k)))
+
+    def greatest_force(self, cam: AnyCam) -> float:
+        """Maximum force of the roller on a cam over the stroke, and on one that swings itself home, at the design
+        speed [N]."""
+        along = kept_last(partial(self._along, cam))
+        wanted = [(lambda k: self._pressing(cam, 1.0, 1.0) * along(k), True)]
+        if isinstance(cam, OscillatingCam):
+            wanted.append((lambda k: self._pressing(cam, 1.0, need_home(cam, k)) * along(k), True))
+        found = extremes_of_parts(wanted, cam.contact, samples=128)
+        return greatest([each.value for of_part in found for each in of_part])
 
     def _pressing(self, cam: AnyCam, speed_ratio: Any, need: Any) -> Any:
         """Force along the normal by torque over J gamma/T^2 and cos delta [N]."""

@@ -50,7 +50,7 @@ def test_reference() -> None:
     expected, own = CASES["D20"], unloading()
     assert own.motion.stroke_time == pytest.approx(TIME, rel=1e-15)
     assert own.torque_peaks(np.ones(1))[0][0] == pytest.approx(expected["M_in_max"], rel=ROUNDING)
-    assert own.power_peak == pytest.approx(expected["bc_max"], rel=ROUNDING)
+    assert own.motion.law.power_peak == pytest.approx(expected["bc_max"], rel=ROUNDING)
     speeds = np.array([0.5, 1.0, 1.5, 1.8]) / 1.66
     listed = [expected[f"Ky(n={n})"] for n in ("0.5", "1.0", "1.5", "1.8")]
     # near n0 the difference of squares has the condition n^2/|n^2 - n0^2| in the rounded ratio
@@ -117,7 +117,7 @@ def test_friction_never_helps() -> None:
 
 def test_power_of_the_harmonic_law() -> None:
     own = unloading(swing=1e-6, unloader={"type": "pneumatic", "pivot_ratio": 3.0, "arm": 120.0}, cam=None)
-    assert own.power_peak == pytest.approx(math.pi**3 / 8.0, rel=ROUNDING)
+    assert own.motion.law.power_peak == pytest.approx(math.pi**3 / 8.0, rel=ROUNDING)
 
 
 @pytest.mark.parametrize(

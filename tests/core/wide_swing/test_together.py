@@ -13,6 +13,7 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.machines.wide_swing.oscillating_cam import need_home
 from gearlink.core.machines.wide_swing.together import law_of
 from gearlink.core.studies.explore.base import Base, single, singles
 
@@ -135,6 +136,33 @@ def test_designs_of_one_device_and_swing_share_their_law() -> None:
     designs = _found("wide_swing_twin_cam", CAM, "max_radius")
     assert len({id(design.motion.plain_law) for design in designs}) == 1
     assert len({id(design.motion.plain_law) for design in _found("wide_swing_twin_cam", LAW, "max_radius")}) == 9
+
+
+@pytest.mark.parametrize("name", ["wide_swing_slider_drive", "wide_swing_slider_cam", "wide_swing_oscillating_cam"])
+def test_forces_of_cams_that_are_not_symmetric_are_found_together(name: str) -> None:
+    """The maximum of the force at many places, in the stroke and on the way home."""
+    for design in _found(name, {"unloader.pivot_ratio": 0.1, "cam.roller_radius": 1.5}, "contact_force"):
+        assert "contact_force" in vars(design)
+        cam, unloading = design.cam, design.unloading
+        grids = [np.linspace(start, end, 400) for start, end in cam.contact]
+        forces = [unloading.contact_force(cam, k).max() for k in grids]
+        if design.spec.drive is not None:
+            forces += [unloading.contact_force(cam, k, need=need_home(cam, k)).max() for k in grids]
+        assert design.contact_force == pytest.approx(max(forces), rel=1e-4)
+        assert design.contact_force >= max(forces) * (1.0 - 1e-12)
+
+
+def test_extremes_of_laws_are_found_together() -> None:
+    for design in _found("wide_swing_slider_drive", {"slider.mass": 1.0, "drive.crank": 2.0}, "power_peak"):
+        assert "peaks" in vars(design.motion.slider)
+        law, drive = design.aimed_law, design.motion.drive
+        assert {"turns", "_at", "middle_jerk"} <= set(vars(law))
+        # where the rocker's way over the cam's has an extremum, between places beside it
+        k = law.place + np.array([-1e-4, 0.0, 1e-4])
+        ratio = law.law.rates(k)[0] / drive.motion(k, 1)[1]
+        assert (ratio[0] - ratio[1]) * (ratio[2] - ratio[1]) > 0.0
+    for design in _found("wide_swing_twin_cam", {"swing": 8.0}, "drive_torque_peak"):
+        assert "power_peak" in vars(design.motion.plain_law)
 
 
 def test_laws_of_many_rockers_are_read_backwards_together() -> None:

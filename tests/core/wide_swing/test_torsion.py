@@ -18,7 +18,8 @@ from sweeps import mostly_slow
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
 from gearlink.core.machines.wide_swing.law import ElasticLaw
-from gearlink.core.machines.wide_swing.torques import TorsionResponse, acceleration_series, dynamic_coefficient
+from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
+from gearlink.core.machines.wide_swing.torques import TorsionResponse, acceleration_series, dynamic_coefficient, peak_of
 
 EXPECTED = next(
     case["outputs_float"]
@@ -46,6 +47,18 @@ def test_series_is_the_law(law: ElasticLaw) -> None:
     )
     # c(1 - k) = -c(k): only odd waves
     assert np.abs(series.coefficients[::2]).max() < 1e-14
+
+
+def test_peak_of_the_series_is_that_of_the_law() -> None:
+    """The sum of all waves over the time against a search over the angle."""
+    drive = SliderDrive(1.0, 3.0, 0.5 * math.pi)
+    for law in (ElasticLaw(Spring(1.5, 0.1), 4.5), SliderLaw(Pneumatic(2.5), 2.0, drive, 0.3)):
+        series = acceleration_series(law.device_torque)
+        waves, k = math.pi * np.arange(len(series.coefficients)), np.linspace(0.0, 1.0, 4001)
+        assert law.torque_peak == pytest.approx(peak_of(series), rel=1e-13)
+        assert law.torque_peak == pytest.approx(
+            np.abs(np.cos(np.outer(k, waves)) @ series.coefficients).max(), rel=1e-6
+        )
 
 
 @pytest.mark.parametrize(
