@@ -147,6 +147,11 @@ def gaps(one: Gear | Shaft, other: Gear | Shaft, nearest: Any, farthest: Any) ->
     return nearest - (one.outer + other.outer), *within
 
 
+def gear_meetings(gears: Iterable[Gear]) -> Iterator[tuple[Gear, Gear]]:
+    """Every two gears that do not mesh; of numbers or of arrays."""
+    return ((a, b) for a, b in combinations(gears, 2) if a.axis not in b.mates and b.axis not in a.mates)
+
+
 def shaft_meetings(gears: Iterable[Gear], shafts: tuple[Shaft, ...]) -> Iterator[tuple[Gear | Shaft, Gear | Shaft]]:
     """Every gear with every shaft that it does not turn with, then every two shafts; of numbers or of arrays."""
     of_gears = ((gear, shaft) for shaft in shafts for gear in gears if shaft.axis not in gear.turns_with)
@@ -172,20 +177,12 @@ class Layout:
     @cached_property
     def gear_pairs(self) -> tuple[Clearance, ...]:
         """Every two gears that do not mesh."""
-        pairs = combinations(self.gears, 2)
-        return tuple(self._gaps((a, b) for a, b in pairs if a.axis not in b.mates and b.axis not in a.mates))
+        return tuple(self._gaps(gear_meetings(self.gears)))
 
     @cached_property
     def shaft_pairs(self) -> tuple[Clearance, ...]:
         """Every gear against every shaft that it does not turn with, then the shafts against each other."""
         return tuple(self._gaps(shaft_meetings(self.gears, self.shafts)))
-
-    @property
-    def seats(self) -> Iterator[Seat]:
-        """Every gear on the axis of a shaft that the file names."""
-        for gear, shaft in product(self.gears, self.shafts):
-            if gear.axis == shaft.axis and gear.root is not None and shaft.radius is not None:
-                yield Seat(gear, shaft, gear.root - shaft.radius, 0.5 * (gear.outer - gear.root))
 
     def _gaps(self, pairs: Iterable[tuple[Gear | Shaft, Gear | Shaft]]) -> Iterator[Clearance]:
         for one, other in pairs:
@@ -197,6 +194,13 @@ class Layout:
     def gear_gap(self) -> float | None:
         """Minimum gap of the gears that do not mesh [mm]; None where all mesh."""
         return min((pair.gap for pair in self.gear_pairs), default=None)
+
+
+def seats(gears: Iterable[Gear], shafts: Iterable[Shaft]) -> Iterator[Seat]:
+    """Every gear on the axis of a shaft that the file names; of numbers or of arrays."""
+    for gear, shaft in product(gears, shafts):
+        if gear.axis == shaft.axis and gear.root is not None and shaft.radius is not None:
+            yield Seat(gear, shaft, gear.root - shaft.radius, 0.5 * (gear.outer - gear.root))
 
 
 def ring_gear(axis: str, mesh: GearPair, mates: str = "", rim: float | None = None) -> Gear:
@@ -376,7 +380,7 @@ class WithShafts:
 def seat_checks(layout: Layout) -> Iterator[Check]:
     """GL302: every gear whose own shaft leaves its teeth no rim that bears them; a warning, since they may be cut into
     the shaft. Nothing where all have one."""
-    for seat in layout.seats:
+    for seat in seats(layout.gears, layout.shafts):
         if seat.rim < seat.least:
             yield _thin_rim(seat)
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from functools import cached_property, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +25,15 @@ from gearlink.core.machines.planar.course import AsMade, Course, Start
 from gearlink.core.machines.planar.design import PlanarMechanism, folded
 from gearlink.core.machines.planar.dyads import Dyad, dyads
 from gearlink.core.machines.planar.extremes import Coefficient, Wanted, humps
+from gearlink.core.machines.planar.gaps import (
+    Axis,
+    Tops,
+    axes_that_may_meet,
+    carrier,
+    name_of,
+    placed,
+    squared_distance,
+)
 from gearlink.core.machines.planar.structure import GearJoint, Line, RackJoint, Structure
 from gearlink.core.machines.planar.system import (
     Jets,
@@ -37,10 +46,10 @@ from gearlink.core.machines.planar.system import (
     pins_of,
     split,
 )
-from gearlink.core.machines.planar.wiring import FRAME, carrier_of
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.linkages.checks import transmission_judged
-from gearlink.core.parts.linkages.codes import CLOSURE, TRANSMISSION_ANGLE
+from gearlink.core.parts.linkages.codes import CLOSURE, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
+from gearlink.core.studies.clearance import Gear, Shaft, collision_judged, gaps, seats, shaft_judged
 from gearlink.core.studies.tolerance.sources import Parts
 
 _PIN = "pins."
@@ -49,7 +58,7 @@ _SIZES = re.compile(
     r"|meshes\.\w+\.(direction|module|pressure_angle)"
 )
 _OF_CAMS = re.compile(r"cams\.(\w+)\.(profile|roller_radius|phase|face)")
-_OF_GAPS = ("gear-collision", "shaft-clearance", "shaft-seat")
+_OF_POINTS = re.compile(r"(?:links\.)?(\w+)\.(\w+)\[[01]\]")
 _SIDES = ("max", "max_at", "min", "min_at", "span")
 _CERTAIN = 0.25
 """Of h, below the 1/2 of the theorem: for the way between two places of the grid."""
@@ -67,6 +76,11 @@ _BESIDE = 1e-4  # of the input, from joints
 _REST = 1e-13
 _APART, _LOOKS = math.radians(1.0), 25
 """Of what stands still nominally: how far it must stay above the minimum, and at how many inputs it is looked at."""
+_SWING = 0.01
+"""Of the size: what the square of a distance moves by at least, in its units, for extremes beside the nominal ones."""
+_LEAST_LOOKS, _ROUNDS, _LEVEL_GAP = 60, 4, 1e-11
+"""Inputs over a period at which other distances are looked at, steps by the nominal inverse at each, and the share of
+the size by which the square of one that stands still may move."""
 _MOST = 2_000_000
 """Numbers of the matrices that are held at a time."""
 
@@ -189,23 +203,37 @@ class PlanarSamples:
         self.parts = Parts({}, pins=pins, others={f"cams.{name}.profile": 0.0 for name in nominal.spec.cams})
 
     def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
-        """Whether sizes, plays and extremes alone are asked for, and no gear comes nearer to another or to a shaft."""
+        """Whether sizes, plays and extremes alone are asked for, and each gap of gears and shafts is found."""
         for key in keys:
             if key.startswith("cams.") and not _OF_CAMS.fullmatch(key):
                 what = f"{key} is no size of a part: the profile is cut by the law of the file"
                 raise NoSolution(what, key="tolerance.sources", fix="name cams.NAME.profile, roller_radius or phase")
-        if not all(self._is_size(key) for key in keys) or not self._gaps_stand(keys):
+        if not all(self._is_size(key) for key in keys) or not self._has_gaps(keys):
             return False
         return all(self._served(name) for name in names) and not any(self._still(name) for name in names)
 
-    def _gaps_stand(self, keys: Sequence[str]) -> bool:
-        """Whether the gaps of gears and shafts are those of the nominal design: all axes on the frame, or no gap."""
-        spec, layout = self.nominal.spec, self.nominal.layout
-        if not any(key.startswith(("frame.", "meshes.")) for key in keys) and all(
-            mesh.gears is not None and carrier_of(spec, mesh) == FRAME for mesh in spec.meshes.values()
-        ):
+    def _has_gaps(self, keys: Sequence[str]) -> bool:
+        """Whether distances of axes are found: not those of points of one place that may part, nor what nearly stands
+        still over a range or with cams."""
+        if not self._axes:
             return True
-        return layout is None or not any(True for name in _OF_GAPS for _ in self.nominal.check(name))
+        of_points = (match.groups() for key in keys if (match := _OF_POINTS.fullmatch(key)))
+        for points, point in ((self.nominal.spec.bodies.get(body, {}), point) for body, point in of_points):
+            if sum(at == points.get(point) for at in points.values()) > 1:
+                return False
+        periodic = self.nominal.course.turns is not None and not self.nominal.spec.cams
+        return periodic or not self.nearly_still({key.removeprefix(_PIN) for key in keys if key.startswith(_PIN)})
+
+    def nearly_still(self, played: Container[str]) -> list[str]:
+        """Distances of axes that no body holds and that move too little in the nominal design for extremes there.
+
+        Parameters
+            played : names of pins with play
+        """
+        return [
+            name for name, axes in self._axes.items()
+            if (name, 0) not in self._humps and carrier(self.nominal.structure, *axes, played) is None
+        ]  # fmt: skip
 
     def _is_size(self, key: str) -> bool:
         """Whether an array form has it; a cam off its shaft makes no dwell."""
@@ -253,7 +281,8 @@ class PlanarSamples:
         orders: dict[str, list[int]] = {}
         for name, order in keys:
             orders.setdefault(name, []).append(order)
-        moving = design.moving_numbers
+        moving = design.moving_numbers | self._distances
+        orders |= {name: [0] for name in self._distances}
         if design.spec.cams:
             return self._beside_joints({name: moving[name] for name in orders}, orders)
         wanted = {name: Wanted(moving[name][0], of, moving[name][1]) for name, of in orders.items()}
@@ -261,6 +290,22 @@ class PlanarSamples:
         for key, places in humps(course, wanted, _NEAR).items():
             ends = [] if course.turns is not None else [course.start, course.end]
             found[key] = [_Hump(place, sign) for place, sign in places] + [_Hump(end, 0.0, end=True) for end in ends]
+        return found
+
+    @cached_property
+    def _axes(self) -> Mapping[str, tuple[Axis, Axis]]:
+        return axes_that_may_meet(self.nominal.structure)
+
+    @cached_property
+    def _distances(self) -> dict[str, tuple[Coefficient, str]]:
+        """By name the squares of distances of axes that move, and their unit."""
+        course, structure, found = self.nominal.course, self.nominal.structure, {}
+        jets = course.jets(course.grid, 0)
+        for name, axes in self._axes.items():
+            if carrier(structure, *axes, ()) is None:
+                number = squared_distance(structure, *axes)
+                if float(np.ptp(number(jets, 0))) > _SWING * structure.size:
+                    found[name] = number, "mm"
         return found
 
     @cached_property
@@ -319,6 +364,14 @@ class PlanarSamples:
         """Places of the nominal design."""
         course = self.nominal.course
         return [*_places(self.system, course.walked(course.grid), course.jets(course.grid, 1))]
+
+    @cached_property
+    def looks(self) -> list[_There]:
+        """Even places of the nominal design over its period."""
+        course = self.nominal.course
+        count = max(_LEAST_LOOKS, course.samples // 4)
+        q = np.linspace(course.start, course.end, count, endpoint=False)
+        return [*_places(self.system, course.walked(q), course.jets(q, 1))]
 
     @cached_property
     def _at_start(self) -> _There:
@@ -440,8 +493,6 @@ class PlanarSamples:
     def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
         """The designs as manufactured; what is not certain is left to the class."""
         parts = [self._part(some, names) for some in self._parts(columns)]
-        if len(parts) == 1:
-            return parts[0]
         unsure = [part.unsure for part in parts if part.unsure is not None]
         findings = [
             Findings(
@@ -456,7 +507,8 @@ class PlanarSamples:
         ]
         return Evaluated(
             {name: np.concatenate([part.quantities[name] for part in parts]) for name in parts[0].quantities},
-            findings, np.concatenate([part.refused for part in parts]), (), np.concatenate(unsure),
+            [finding for finding in findings if not np.isnan(finding.value).all()],
+            np.concatenate([part.refused for part in parts]), (), np.concatenate(unsure),
         )  # fmt: skip
 
     def _parts(self, columns: Mapping[str, Reals | Points]) -> list[dict[str, Any]]:
@@ -466,12 +518,11 @@ class PlanarSamples:
 
     def _part(self, columns: Mapping[str, Any], names: Sequence[str]) -> Evaluated:
         many = _Many(self, columns)
-        design, quantities = many.design, {}
+        design, quantities, findings = many.design, {}, [*many.judged_gaps]
         for name in sorted(names, key=lambda name: name == "closure_error"):  # that of all places that were sought
             found = many.value(name)
             unit = design.unit_for(design.spec, name)
             quantities[name] = np.degrees(found) if unit == "deg" else found
-        findings = []
         if self._humps.keys() & {*self.nominal.dyad_keys}:
             value = np.degrees(many.transmission[0])
             judged = transmission_judged(value, design.spec.limits.transmission_angle)
@@ -485,9 +536,14 @@ class PlanarSamples:
 
     @cached_property
     def _unchanged(self) -> list[Check]:
-        """Findings of gears, shafts and the cams as cut, which no sample changes."""
-        names = (*_OF_GAPS, "pressure-angle", "cam-undercut", "acceleration-step")
-        return [check for name in names for check in self.nominal.check(name)]
+        """Findings of the cams as cut, which no sample changes."""
+        if not self.nominal.spec.cams:
+            return []
+        from gearlink.core.machines.planar.cams import shaft_checks
+
+        names = ("pressure-angle", "cam-undercut", "acceleration-step")
+        found = [check for name in names for check in self.nominal.check(name)]
+        return [*shaft_checks(self.nominal.structure), *found]
 
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
         """By how much the first output, a link or a slide, is off that of the nominal design [rad or mm]; (K, N), NaN
@@ -712,6 +768,8 @@ class _Many:
     @cached_property
     def _numbers(self) -> dict[str, Coefficient]:
         found = {each.output.name: each.output.coefficient for each in self.design.meanings.values()}
+        structure = self.design.structure
+        found |= {name: squared_distance(structure, *axes) for name, axes in self.samples._axes.items()}
         return found | {f"dyad {i}": dyad.angle for i, dyad in enumerate(self._dyads)}
 
     def number(self, name: str) -> Coefficient:
@@ -733,22 +791,31 @@ class _Many:
         return self._found[(*key, hump)]
 
     def _sought(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
-        """Each step from the nominal place on closes the samples, and goes on along their motions."""
-        (q, y), off = self._first(hump), np.zeros(self.count, dtype=bool)
+        q, y = self._first(hump)
         if hump.end:
-            return self._there(key, q, y, off)
-        start, way = q.copy(), self._way(key, hump)
+            return self._there(key, q, y, np.zeros(self.count, dtype=bool))
+        return self._there(key, *self._walked(q, y, self._way(key, hump)), hump.side)
+
+    def _walked(
+        self, q: Reals, y: Reals, way: _ToJoint | _BySlope, held: Mask | bool = False
+    ) -> tuple[Reals, Reals, Mask]:
+        """Places along a way, and which are none: each step closes the samples, and goes on along their motions.
+
+        Parameters
+            held : (N,) mask - samples that stay where they are
+        """
+        start, off = q.copy(), np.zeros(self.count, dtype=bool)
         for _ in range(_STEPS):
             y, _open = self.closed(q, y)
             here = self.system.onward(Jets.of(y), q, way.order)
             with np.errstate(all="ignore"):
                 step = way.step(q, here)
-            step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
+            step = np.where(np.isfinite(step) & np.logical_not(held), np.clip(step, -0.1, 0.1), 0.0)
             q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
             off = (np.abs(q - start) > _FAR) | (np.abs(step) > way.rest[1]) | way.misses
             if not ((np.abs(step) > way.rest[0]) & ~self.unsure).any():
                 break
-        return self._there(key, q, y, off, hump.side)
+        return q, y, off & np.logical_not(held)
 
     def _way(self, key: tuple[str, int], hump: _Hump) -> _ToJoint | _BySlope:
         """Laws have no derivative after the third: with cams by secants."""
@@ -795,6 +862,69 @@ class _Many:
         size = np.max(np.abs(values), axis=0)
         places = np.where(sign * values >= top - 1e-10 * size, places, math.inf)
         return sign * top, places.min(axis=0)
+
+    # Gears and shafts
+
+    @property
+    def judged_gaps(self) -> Iterator[Findings]:
+        """GL301 and GL302 of gears and shafts, in the order of the class; of seats that do well NaN."""
+        found, limits = placed(self.design.structure), self.samples.nominal.spec.limits
+        if found is None:
+            return
+        for one, other in found.meetings:
+            gap = self._gap_of(one, other)
+            bare = sum(isinstance(body, Shaft) and body.radius is None for body in (one, other))
+            if isinstance(one, Gear) and isinstance(other, Gear):
+                yield collision_judged(gap, limits.gear_gap).of(self.count)
+            else:
+                yield shaft_judged(gap, found.least_shaft * bare, bare > 0).of(self.count)
+        for seat in seats(found.gears, found.shafts):
+            rim, least = (np.broadcast_to(each, (self.count,)) for each in (seat.rim, seat.least))
+            thin, no = rim < least, np.zeros(self.count, dtype=bool)
+            value, limit = (np.where(thin, each, math.nan) for each in (rim, least))
+            yield Findings(SHAFT_CLEARANCE.code, value, limit, no, thin, "mm")
+
+    def _gap_of(self, one: Gear | Shaft, other: Gear | Shaft) -> Reals:
+        """Minimum gaps [mm]."""
+        name = name_of(one, other)
+        nearest = self._distance(name, -1.0)
+        is_ring = np.any(np.isfinite(one.inner)) or np.any(np.isfinite(other.inner))
+        farthest = self._distance(name, 1.0) if is_ring else nearest
+        return np.asarray(reduce(np.maximum, gaps(one, other, nearest, farthest)))
+
+    def _distance(self, name: str, sign: float) -> Reals:
+        """Maximum (sign 1) or minimum distances of two axes [mm]."""
+        samples, structure = self.samples, self.design.structure
+        (one, p), (other, r) = samples._axes[name]
+        body = carrier(structure, (one, p), (other, r), structure.plays)
+        if body is not None:
+            points = structure.bodies[body]
+            return np.asarray(np.abs(points[p] - points[r]) + np.zeros(self.count))
+        is_moving = (name, 0) in samples._humps
+        square = self.extreme((name, 0), sign)[0] if is_moving else self._little_moved(name, sign)
+        return np.asarray(np.sqrt(np.maximum(square, 0.0) * structure.size))
+
+    @cached_property
+    def _vertices(self) -> tuple[list[str], Tops]:
+        """Names of the distances that nearly stand still nominally, and their vertices over the period."""
+        names, looks = self.samples.nearly_still(self.design.structure.plays), self.samples.looks
+        found = Tops((len(names), self.count))
+        for there in (*looks, *looks[:2]):
+            y, inputs = np.tile(there.y, (self.count, 1)), np.full(self.count, there.q)
+            for _ in range(_ROUNDS):
+                y = y - self.system.values(Jets.of(y), 0, inputs) @ there.inverse.T
+            jets = Jets.of(y)
+            found.add(np.array([self._numbers[name](jets, 0) for name in names]))
+        return names, found
+
+    def _little_moved(self, name: str, sign: float) -> Reals:
+        """Extremes of what nearly stands still in the nominal design, from its vertex in each sample on."""
+        (names, tops), looks = self._vertices, self.samples.looks
+        i = names.index(name)
+        at, key = tops.at[sign][i] % len(looks), (name, 0)
+        held = ~(tops.best[1.0][i] + tops.best[-1.0][i] > _LEVEL_GAP * self.design.structure.size)
+        q, y = np.array([there.q for there in looks])[at], np.array([there.y for there in looks])[at]
+        return self._there(key, *self._walked(q, y, self._way(key, _Hump(0.0, sign)), held))[0]
 
     @property
     def _standing(self) -> Reals:

@@ -119,12 +119,131 @@ def test_samples_whose_gears_do_not_mesh_are_left_to_the_class() -> None:
     assert found.unsure.tolist() == [False, True]
 
 
-def test_gears_whose_gaps_differ_are_left_to_the_class() -> None:
-    """A gear beside a shaft of the frame: where the centres stand otherwise, or the module is another, the gap is."""
-    file = {**GEARED, "frame": {"A": [0, 0], "E": [50, 0], "F": [-40, 0]}, "shafts": {"F_radius": 6}}
-    assert study(file, {"links.crank[2]": {"plus_minus": 0.05}}).is_quick
-    assert not study(file, {"frame.F[0]": {"plus_minus": 0.05}}).is_quick
-    assert not study(file, {"meshes.pair.module": {"plus_minus": 0.05}}).is_quick
+def off_by(width: float, *keys: str, played: str = "") -> dict[str, Any]:
+    return {key: {"plus_minus": width} for key in keys} | {f"pins.{pin}": {"clearance": [0.02, 0.06]} for pin in played}
+
+
+SHAFTED = {**GEARED, "frame": {"A": [0, 0], "E": [50, 0], "F": [-40, 0]}, "shafts": {"F_radius": 6, "A_radius": 20}}
+ROUND_SHAFTS = {
+    **ZOO["planet"], "frame": {"A": [0, 0], "Z": [0.2, 0.1], "Y": [15, 5]}, "shafts": {"Y_radius": 2, "Z_radius": 3},
+    "meshes": {"ring": {"gears": ["planet", "frame"], "at": ["B", "A"], "teeth": [20, -60], "module": 2}},
+}  # fmt: skip
+WITHIN_THE_RING = {
+    **ROUND_SHAFTS, "links": {**ZOO["planet"]["links"], "wheel": {"B": [0, 0], "V": [5, 0]}},
+    "meshes": {**ROUND_SHAFTS["meshes"], "pair": {"gears": ["rod", "wheel"], "at": ["P", "B"], "teeth": [10, 10]}},
+    "start": {**ZOO["planet"]["start"], "wheel": 0},
+}  # fmt: skip
+ON_A_FOUR_BAR = {
+    **FOUR_BAR, "shafts": {"A_radius": 3},
+    "links": {**FOUR_BAR["links"], "one": {"A": [0, 0], "X": [5, 0]}, "two": {"D": [0, 0], "Y": [5, 0]}},
+    "meshes": {"first": {"gears": ["coupler", "one"], "at": ["B", "A"], "teeth": [20, 12], "module": 2},
+               "second": {"gears": ["coupler", "two"], "at": ["C", "D"], "teeth": [18, 60], "module": 2}},
+    "start": {**FOUR_BAR["start"], "one": 0, "two": 0},
+}  # fmt: skip
+RACK_AND_SHAFTS = {**ZOO["rack-on-link"], "frame": {"A": [0, 0], "P": [100, 0], "Q": [150, 40]},
+                   "shafts": {"A_radius": 5, "Q_radius": 4}}  # fmt: skip
+BY_RACK = {
+    "frame": {"A": [0, 0], "Q": [10, 70]}, "shafts": {"A_radius": 15, "Q_radius": 12},
+    "links": {"crank": ["A", "B", 40], "rod": ["B", "F", 160], "ram": {"F": [0, 0]}, "pinion": {"F": [0, 0]}},
+    "slides": {"guide": {"link": "ram", "through": [0, 8], "direction": 0}},
+    "meshes": {"teeth": {"rack": "frame", "pinion": "pinion", "at": "F", "direction": 0, "side": 1, "teeth": 20,
+                         "module": 2}},
+    "drive": {"link": "crank"}, "start": {"crank": 0, "rod": 0, "guide": 200}, "outputs": ["guide", "pinion"],
+}  # fmt: skip
+TWINS = {  # two planets that run round alike, nominally at one distance
+    "frame": {"A": [0, 0], "D": [90, 20]}, "drive": {"link": "crank", "with": {"other": 1}},
+    "links": {"crank": ["A", "B", 30], "other": ["D", "E", 30], "first": {"B": [0, 0], "P": [9, 2]},
+              "second": {"E": [0, 0], "Q": [9, 2]}},
+    "meshes": {"one": {"gears": ["first", "frame"], "at": ["B", "A"], "teeth": [20, 12]},
+               "two": {"gears": ["second", "frame"], "at": ["E", "D"], "teeth": [14, 18]}},
+    "start": {"crank": 20, "other": 20, "first": 0, "second": 0}, "outputs": ["P"],
+}  # fmt: skip
+GAPS = {
+    "shafted": (SHAFTED, off_by(0.02, "frame.F[0]", "frame.E[0]", "meshes.pair.module", "links.crank[2]")),
+    "planet": (ROUND_SHAFTS, off_by(0.02, "links.carrier[2]", "frame.Y[1]", "meshes.ring.module", played="AB")),
+    "ring": (WITHIN_THE_RING, off_by(0.02, "links.carrier[2]", "links.planet.P[0]", played="P")),
+    "twins": (TWINS, off_by(0.02, "frame.D[1]", "links.crank[2]", "links.other[2]", played="E")),
+    "four-bar": (ON_A_FOUR_BAR, off_by(0.02, "frame.D[0]", "links.crank[2]", "links.coupler.C[0]", played="ABC")),
+    "rack": (RACK_AND_SHAFTS, off_by(0.05, "frame.Q[0]", "links.crank[2]", "frame.P[1]")),
+    "pinion": (BY_RACK, off_by(0.05, "frame.Q[1]", "links.crank[2]", "meshes.teeth.module", played="F")),
+}
+
+
+def of_gaps(found: Any) -> list[Any]:
+    return [each for each in found.findings if each.code in ("GL301", "GL302")]
+
+
+@pytest.mark.parametrize("name", mostly_slow([*GAPS], 1))
+def test_gaps_of_samples_at_once_are_those_of_the_class(name: str) -> None:
+    """Between axes of the frame, of one link, of planets, and where the play of a pin moves what nominally stands
+    still; they are of the places of an extreme, which count squared: 1e-9 mm of lengths up to 250 mm."""
+    made_ = study(*GAPS[name])
+    assert made_.is_quick
+    assert made_.axis is not None
+    columns = made_.sizes(np.random.default_rng(5).uniform(size=(2, made_.coordinates)))
+    many = made_.axis.evaluate(columns, made_.quick_names)
+    assert many.unsure is not None
+    assert not many.unsure.any()
+    found, wanted = of_gaps(many), of_gaps(_one_by_one(made_, columns, made_.names))
+    assert len(found) == len(wanted) >= 3
+    for own, other in zip(found, wanted, strict=True):
+        assert own.value == pytest.approx(other.value, rel=0.0, abs=1e-9)
+        assert own.limit == pytest.approx(other.limit, rel=0.0, abs=1e-12)
+        assert (own.code, own.fails.tolist(), own.warns.tolist()) == (
+            other.code, other.fails.tolist(), other.warns.tolist())  # fmt: skip
+
+
+JUST_PASSED = (
+    {**ROUND_SHAFTS, "shafts": {"Y_radius": 2.18}},
+    off_by(0.05, "links.carrier[2]", "frame.Y[1]", "meshes.ring.module", played="A"),
+)
+JUST_SEATED = (  # root 0.5 * 20 * 2.5 - 1.25 * 2.5, less half of the height 1.125 * 2.5
+    {**SHAFTED, "shafts": {"A_radius": 21.875 - 2.8125}},
+    off_by(0.05, "meshes.pair.module", "frame.F[0]"),
+)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("case", "verdict"), [(JUST_PASSED, "fails"), (JUST_SEATED, "warns")])
+def test_gaps_cross_their_limit_within_the_samples(case: Any, verdict: str) -> None:
+    """A shaft that the planet just passes, and one whose gear has just enough of a rim left round it."""
+    made_ = study(*case)
+    assert made_.is_quick
+    columns = made_.sizes(np.random.default_rng(5).uniform(size=(8, made_.coordinates)))
+    many, few = evaluated(made_, columns), _one_by_one(made_, columns, made_.names)
+    judged, one_by_one = (sorted((each.code, each.fails.tolist(), each.warns.tolist()) for each in of_gaps(found))
+                          for found in (many, few))  # fmt: skip
+    assert judged == one_by_one
+    assert any(0 < np.count_nonzero(getattr(each, verdict)) < 8 for each in of_gaps(many))
+
+
+def test_the_play_of_the_carrier_takes_its_planet_to_and_fro() -> None:
+    """The planet's centre runs on a circle about the pin that is off: from a place z it is at least r - |A + play - z|
+    away. Nominally it stands still from A, and nearly from Z."""
+    made_ = study(ROUND_SHAFTS, off_by(0.02, "links.carrier[2]", played="A"))
+    assert made_.is_quick
+    assert made_.axis is not None
+    r, play = np.array([40.01, 39.99, 40.02]), np.array([0.03 + 0.01j, -0.02 + 0.03j, 0.0])
+    found = made_.axis.evaluate({"links.carrier[2]": r, "pins.A": play}, ["guide.stroke"])
+    assert found.unsure is not None
+    assert not found.unsure.any()
+    shafts = {0j: 0.0, 0.2 + 0.1j: 3.0, 15 + 5j: 2.0}
+    wanted = [np.abs(r - np.abs(play - place)) - 22.0 - radius for place, radius in shafts.items()]
+    rows = [each.value for each in of_gaps(found)]
+    for one in wanted:
+        assert min(float(np.abs(row - one).max()) for row in rows) < 1e-11
+
+
+@pytest.mark.slow
+def test_gaps_that_no_extreme_tells_are_left_to_the_class() -> None:
+    """Points that lie on one another and may part, since gears of them are then on two axes; and a distance that the
+    play of a pin alone moves, over a range."""
+    file = {**ROUND_SHAFTS, "frame": {**ROUND_SHAFTS["frame"], "X": [15, 5]}}
+    assert study(file, off_by(0.05, "frame.A[0]")).is_quick
+    assert not study(file, off_by(0.05, "frame.Y[0]")).is_quick
+    part = {**ROUND_SHAFTS, "frame": {"A": [0, 0], "Y": [15, 5]}, "shafts": {}, "range": {"start": 0, "end": 90}}
+    assert study(part, off_by(0.05, "links.carrier[2]", "frame.A[0]")).is_quick
+    assert not study(part, off_by(0.05, "links.carrier[2]", played="A")).is_quick
 
 
 @pytest.mark.slow
