@@ -253,6 +253,8 @@ _TRANSMISSION = {
 def _more_force(design: WideSwingDesign) -> str:
     """The reserve that holds the roller with a tenth of speed as margin, or the strength of a given device."""
     unloader, need, size = design.spec.unloader, design.unloading.need, design.unloading.size
+    if design.spec.slider is not None and math.isinf(need):
+        return remedies.side_words(design.spec.slider)
     safe = remedies.reserve(unloader.residual, 0.1, need)
     key = {"pneumatic": "force", "spring": "rate", "gravity": "mass"}[unloader.type]
     if getattr(unloader, key) is None:
@@ -1218,8 +1220,12 @@ class WideSwingDesign(Design):
         back, fix = self.unloading.way_back, ""
         if status != "pass":
             fix = _more_force(self)
-        governs = back is not None and back.value > 1.0
-        at = f"k = {short(back.place)} of the return stroke" if back is not None and governs else ""
+        at = aside = ""
+        if back is not None and back.value > 1.0:
+            at = f"k = {short(back.place)} of the return stroke"
+            aside = f"the return stroke requires {short(back.value)} times the force"
+            if math.isinf(back.value):
+                aside = "the return stroke requires a force where the device has none"
         return FORCE_RESERVE.check(
             status,
             "lift-off speed of the roller",
@@ -1227,9 +1233,7 @@ class WideSwingDesign(Design):
             speed,
             "1/min",
             recommended=1.1 * speed,
-            aside=f"the return stroke requires {short(back.value)} times the force"
-            if back is not None and governs
-            else "",
+            aside=aside,
             at=at,
             fix=fix,
         )

@@ -786,13 +786,13 @@ class WideSwingLoads(LoadsDesign):
         """GL608: the device holds the roller on its cam up to the lift-off speed, and against all that acts besides."""
         speed, limit = self.spec.speed, self.lift_off_speed
         status: Status = "fail" if limit < speed * (1.0 - 1e-9) else "pass"
-        fix = "raise unloader.reserve"
+        slider, fix = self.spec.slider, "raise unloader.reserve"
+        if slider is not None and changes_apart(self):
+            fix = side_words(slider)
         yield codes.CONTACT_LOSS.check(status, "lift-off speed of the roller", limit, speed, "1/min", fix=fix)
-        if not self.own_forces and self.spec.slider is None:
+        if not self.own_forces and slider is None:
             return
         least = self.least_contact_force
-        if self.spec.slider is not None and changes_apart(self):
-            fix = side_words(self.spec.slider)
         status = "fail" if least < 0.0 else "pass"
         what, overlap = "minimum contact force of the roller", "contact force lacking: the roller leaves its cam"
         yield codes.CONTACT_LOSS.check(status, what, least, 0.0, "N", overlap=overlap, fix=fix)

@@ -546,14 +546,20 @@ def greatest_need(cam: OscillatingCam) -> Extreme:
     Parameters
         cam : OscillatingCam
     Returns
-        need : Extreme - at least 1, for at both ends the crank is the same; among places where the roller touches
+        need : Extreme - at least 1, for at both ends the crank is the same; among places where the roller touches;
+            inf where it does so at the place at which a slider's device has no torque
     Raises
         NoSolution - for a loop, or where the roller touches nothing
     """
     (one,), (other,) = extremes_of_parts([(partial(need_home, cam), True)], cam.contact, samples=128)
     later = np.greater(other.value, one.value)
     value, place = np.where(later, other.value, one.value), np.where(later, other.place, one.place)
-    return Extreme(number_of(np.maximum(value, 1.0)), number_of(np.where(value < 1.0, 0.0, place)))
+    value, place = np.maximum(value, 1.0), np.where(value < 1.0, 0.0, place)
+    if isinstance(cam.law, AimedLaw):
+        middle = cam.law.law.middle_place
+        lost = np.logical_or(*((start <= middle) & (middle <= end) for start, end in cam.contact))
+        value, place = np.where(lost, np.inf, value), np.where(lost, middle, place)
+    return Extreme(number_of(value), number_of(place))
 
 
 def need_home(cam: OscillatingCam, k: Reals) -> Reals:

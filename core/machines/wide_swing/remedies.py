@@ -330,6 +330,12 @@ def _refused(design: WideSwingDesign) -> Iterator[Change]:
     yield slider_repair(spec.slider, motion.swing)
 
 
+def _reserve(design: WideSwingDesign) -> Iterator[Change]:
+    need = design.unloading.need
+    if math.isfinite(need):
+        yield "unloader.reserve", at_least(reserve(design.spec.unloader.residual, 0.1 + 1e-9, need), _RATIO)
+
+
 _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     REFUSAL: _refused,
     "unloader-turnability": lambda d: _one("unloader.pivot_ratio", at_least(d.motion.usual_pivot_ratio, _RATIO)),
@@ -342,9 +348,7 @@ _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     "transition-zone": lambda d: _one("cam.roller_radius", at_most(roller_for_zone(d))),
     "shaft-clearance": _shaft,
     "body-clearance": _longer_arm,
-    "force-reserve": lambda d: _one(
-        "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9, d.unloading.need), _RATIO)
-    ),
+    "force-reserve": _reserve,
 }
 
 

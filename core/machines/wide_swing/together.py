@@ -177,7 +177,7 @@ def _without_time(laws: Sequence[ElasticLaw]) -> ElasticLaw:
 
 def _slider_law_of(laws: Sequence[SliderLaw]) -> SliderLaw:
     many = stacked(laws)
-    hand_in(many, laws, "stroke", "energy_parameter", "_total")
+    hand_in(many, laws, "stroke", "energy_parameter", "_total", "middle_place")
     clocks = {name: CosineSeries.of_many([getattr(law, name) for law in laws]) for name in ("clock", "_clock_from_end")}
     keep(many, _half=_without_time([law._half for law in laws]), **clocks)
     return many

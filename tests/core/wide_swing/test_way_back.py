@@ -94,3 +94,20 @@ def test_greatest_force_is_that_of_both_ways() -> None:
     home = max(float((part * (1.7 - need_home(cam, k))).max()) for part, k in zip(inertia, grids, strict=True))
     assert home > 1.08 * forth
     assert design.contact_force == pytest.approx(home, rel=1e-4)
+
+
+def test_no_reserve_holds_a_roller_where_its_device_has_no_torque() -> None:
+    """The quotient of both torques has its pole in contact, to either side of which it grows as 1/distance; the
+    lift-off speed was the rounding of the place of that pole."""
+    design = factory.design("wide_swing_slider_drive", command="swing", drive__rocker=384.0)
+    middle = design.motion.slider.middle_place
+    assert any(start < middle < end for start, end in design.oscillating_cam.contact)
+    near, nearer = (need_home(design.oscillating_cam, np.array([middle + each]))[0] for each in (1e-4, 1e-6))
+    assert nearer == pytest.approx(100.0 * near, rel=0.1)
+    assert design.unloading.lift_off_speed == 0.0
+    (check,) = design.check("force-reserve")
+    assert (check.status, check.fix) == ("fail", "reduce slider.mass")
+    assert "requires a force where the device has none) at k = 0.483 of the return stroke" in check.message
+    assert next(iter(candidates(design, "force-reserve")), None) is None
+    loads = factory.design("wide_swing_slider_drive", command="loads", drive__rocker=384.0)
+    assert [each.fix for each in loads.check("contact-loss")] == ["reduce slider.mass"] * 2
