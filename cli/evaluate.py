@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Report
     from gearlink.core.studies.study.faults import WrongStudy
 
-_LISTED = 12
-
 
 def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
     """The text of a design file as located data, and its kind."""
@@ -192,13 +190,5 @@ def exit_status(report: Report, *, strict: bool = False) -> int:
 
 
 def _unknown_name(error: UnknownName) -> Diagnostic:
-    from gearlink.core.base.nearest import near_quantities
-
-    near = near_quantities(error.name, error.known)
-    plain = [name for name in error.known if "." not in name]  # those of each mesh are many, and the same again
-    shown = _LISTED if error.what == "quantity" else len(plain)
-    more = f", and {len(plain) - shown} more, which --all shows" if len(plain) > shown else ""
-    listed = f"known: {', '.join(plain[:shown])}{more}"
-    listed += ", and those of a mesh as MESH.NAME" if plain != [*error.known] else ""
-    remedy = f"nearest: {', '.join(near)}" if near else listed
-    return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)
+    message, file = error.args[0], f"<--{error.what}>"
+    return Diagnostic("GL115", message, file=file, line=1, column=1, key=error.name, help=error.remedy)

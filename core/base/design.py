@@ -88,6 +88,9 @@ def placed(path: str) -> Any:
     return property(value, doc=f"Stands at `{path}`.")
 
 
+_LISTED = 12
+
+
 class UnknownName(GearlinkError):
     """A quantity, table or command was asked for that this design does not have."""
 
@@ -95,6 +98,22 @@ class UnknownName(GearlinkError):
         shown = f"named {named(name)}" if isinstance(name, str) else f"by {type(name).__name__}: names are text"
         super().__init__(f"this design has no {what} {shown}")
         self.what, self.name, self.known = what, name, tuple(known)
+
+    def __str__(self) -> str:
+        return f"{self.args[0]}; {self.remedy}" if isinstance(self.name, str) else str(self.args[0])
+
+    @property
+    def remedy(self) -> str:
+        """The nearest names; where none is near, those that there are."""
+        from gearlink.core.base.nearest import near_quantities
+
+        if near := near_quantities(self.name, self.known):
+            return f"nearest: {', '.join(near)}"
+        plain = [name for name in self.known if "." not in name]  # those of each mesh are many, and the same again
+        shown = _LISTED if self.what == "quantity" else len(plain)
+        more = f", and {len(plain) - shown} more, which --all shows" if len(plain) > shown else ""
+        meshes = ", and those of a mesh as MESH.NAME" if plain != [*self.known] else ""
+        return f"known: {', '.join(plain[:shown])}{more}{meshes}"
 
 
 class Design:
@@ -221,6 +240,9 @@ class Design:
             if hasattr(type(self), name) or name not in self.quantity_names():
                 return object.__getattribute__(self, name)  # raises what is missing
             return self.raw(name)
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.spec.name!r}>"
 
     def __dir__(self) -> list[str]:
         """What a class has, and every quantity."""

@@ -88,6 +88,25 @@ def test_a_command_of_another_kind_is_refused(designs: Path) -> None:
         gearlink.load(designs / "ty460.yaml").report("gripper")
 
 
+@pytest.mark.parametrize(
+    ("ask", "near"),
+    [
+        (lambda made: made.report("analyse"), "nearest: analyze"),
+        (lambda made: made.quantity("velocity_maxx"), "nearest: velocity_max, slider_velocity_max, velocity_min"),
+        (lambda made: made.table("motio"), "nearest: motion"),
+        (lambda made: made.report("gripper"), "known: crank, analyze"),
+    ],
+)
+def test_an_unknown_name_leads_to_the_nearest(ask: Any, near: str) -> None:
+    """As on the command line."""
+    with pytest.raises(gearlink.GearlinkError, match=near):
+        ask(gearlink.design(**CRANK))
+
+
+def test_a_design_shows_its_kind_and_name() -> None:
+    assert repr(gearlink.design(**CRANK)) == "<slider-crank 'design'>"
+
+
 def test_only_what_the_door_made_can_be_changed() -> None:
     kind = KINDS["slider-crank"]
     bare = kind.design_class("crank")(kind.spec_model()(**CRANK))
