@@ -151,3 +151,27 @@ def test_negative_teeth_lead_to_the_key_of_a_ring(kind: str, key: str, help: str
     data["gears"][key] = -40
     (found,) = [each for each in told(data) if each.key == f"gears.{key}"]
     assert found.help.startswith(help)
+
+
+@pytest.mark.parametrize("word", ["tolerance", "tol", "deviation"])
+def test_the_limits_of_a_source(word: str) -> None:
+    """`tolerance` was taken for a slip of `clearance`."""
+    data = {**WORKED["slider-crank"], "tolerance": {"sources": {"rod": {word: 0.05}}}}
+    (found,) = told(data)
+    assert "write `plus_minus: 0.02`, `lower` and `upper`, or a `grade` of ISO 286" in found.help
+
+
+@pytest.mark.parametrize(
+    ("kind", "word", "key"),
+    [
+        ("gear-pair", "centre_distance", "center_distance"),
+        ("gear-pair", "a", "center_distance"),
+        ("gear-pair", "beta", "helix_angle"),
+        ("slider-crank", "connecting_rod", "rod"),
+        ("slider-crank", "r", "crank"),
+        ("crank-rocker", "K", "quick_return_ratio"),
+        ("geneva-drive", "pin_diameter", "pin_radius"),
+    ],
+)
+def test_letters_of_textbooks(kind: str, word: str, key: str) -> None:
+    assert f"`{key}" in next(each.help for each in told({**WORKED[kind], word: 7.5}) if each.key == word)
