@@ -181,7 +181,7 @@ class SliderCrank:
 
     @classmethod
     def _require_turn(cls, crank: float, rod: float, offset: float) -> None:
-        _check_crank(crank, rod, offset)
+        _check_crank(crank, rod, offset, below=True)
 
     @cached_property
     def max_stroke(self) -> float:
@@ -319,15 +319,18 @@ def _radicands(stroke: float, rod: float, offset: float, f: Elementary) -> tuple
     return f.where(2.0 * e < rod, short, long), denominator
 
 
-def _check_crank(crank: float, rod: float, offset: float) -> None:
+def _check_crank(crank: float, rod: float, offset: float, *, below: bool = False) -> None:
+    """Refuse a crank that cannot turn; where it stays `below` the limit, the one that only just could as well."""
     _check_rod(rod, offset)
     e, difference = abs(offset), rod - crank
     if not crank > 0.0:
         raise NoSolution(f"crank {crank:g} mm: its length must be positive")
-    if not e <= difference:
+    if not (e < difference if below else e <= difference):
+        limit, words = ("<", "below") if below else ("<=", "to at most")
         raise NoSolution(
-            f"crank: {unlike(crank, rod - e)} mm (limit <= {unlike(rod - e, crank)} mm, rod - offset, to turn fully)",
-            fix=f"set the crank to at most {safely_below(rod - e)} mm",
+            f"crank: {unlike(crank, rod - e)} mm "
+            f"(limit {limit} {unlike(rod - e, crank)} mm, rod - offset, to turn fully)",
+            fix=f"set the crank {words} {safely_below(rod - e)} mm",
         )
 
 
