@@ -356,7 +356,7 @@ def rigid_model(design: LoadsDesign) -> Iterator[Check]:
     )
     r, residual = vibrating.rise_periods, vibrating.residual
     aside = f"{short(r)} natural periods per motion" if r is not None else ""
-    share = None if residual is None else residual / vibrating.lift
+    share = residual / vibrating.lift if residual else None  # an output that stands has neither
     if found >= limit and share is not None and share > _ONE_PERCENT:
         what, shown = "vibration left after the motion, over the lift", Shown(100.0 * share, 1.0, "%", "<=")
         fix = "take a smoother motion law, or a lower speed"

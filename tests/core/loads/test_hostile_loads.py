@@ -218,3 +218,9 @@ def test_a_mesh_by_name_may_lose_nothing() -> None:
         for friction in ({"meshes": 1.0}, {"meshes": 0.9, "joints": {"mesh_13": 1.0, "mesh_35": 1.0}})
     )
     assert whole == pytest.approx(free, rel=1e-12)
+
+
+def test_a_follower_that_stands_vibrates_not() -> None:
+    """What is left of its motion was divided by a lift of 0."""
+    made = factory.design("loaded_cam", command="loads", motion=[{"to": 100, "lift": 0}, {"to": 360, "lift": 0}])
+    assert [check.status for check in made.check("rigid-model")] == ["pass"]
