@@ -345,9 +345,9 @@ GEAR_PAIR = {
     ),
     "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
     "shift_sum": Term(
-        "x1+x2",
+        "x_Sigma",
         "1",
-        "sum of the profile shift coefficients; of given ones at a given distance the sum without backlash",
+        "sum of the profile shift coefficients with which the gears run without backlash at their distance",
         "ISO 21771",
     ),
     "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),

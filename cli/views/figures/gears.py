@@ -127,7 +127,7 @@ _WORDS = {
     "tooth_thickness": "thickness, reference circle",
     "working_radius": "working pitch radius",
     "specific_sliding": "specific sliding, foot of flank",
-    "shift_sum": "sum of the profile shifts",
+    "shift_sum": "shift sum without backlash",
     "tip_shortening": "tip shortening coefficient",
     "contact_stress": "contact stress",
     "safety_pitting": "safety against pitting",
@@ -136,7 +136,7 @@ _WORDS = {
 }
 _SYMBOL = 1
 """The column of the symbols, as the nomenclature writes them."""
-_SIGNS = {"alpha": "α", "beta": "β", "eps": "ε", "gamma": "γ", "rho": "ρ", "sigma": "σ", "zeta": "ζ"}
+_SIGNS = {"alpha": "α", "beta": "β", "eps": "ε", "gamma": "γ", "rho": "ρ", "sigma": "σ", "zeta": "ζ", "Sigma": "Σ"}
 
 
 def ruled(
@@ -228,8 +228,8 @@ def _parted(symbol: str) -> list[tuple[str, float, str, float]]:
     """Letters, indices and star of a symbol, each with its place on the height of a letter, and its share of its size.
 
     Example
-        >>> [words for words, *_ in _parted("alpha_wt")], [words for words, *_ in _parted("x1+x2")]
-        (['α', 'wt'], ['x', '1', '+x', '2'])
+        >>> [words for words, *_ in _parted("alpha_wt")], [words for words, *_ in _parted("x_Sigma")]
+        (['α', 'wt'], ['x', 'Σ'])
         >>> _parted("h_fP*")
         [('h', 0.0, 'bottom', 1.0), ('fP', 0.0, 'bottom', 0.7), ('*', 1.0, 'top', 0.9)]
     """

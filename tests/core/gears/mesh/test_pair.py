@@ -315,6 +315,15 @@ def test_undercut_limit_is_where_the_cutter_passes_the_base_tangent_point():
     assert teeth.min_shift_no_undercut(17, ALPHA) < teeth.min_shift_no_undercut(16, ALPHA)
 
 
+def test_the_shift_sum_without_backlash_is_not_called_that_of_given_shifts():
+    """With a distance and shifts they differ; without one of both they are the same."""
+    keys = {"kind": "gear-pair", "module": 2.5, "teeth": [19, 37], "helix_angle": 17, "profile_shift": [0.32, -0.11]}
+    sums = [design(keys | more, command="gear").quantity("shift_sum") for more in ({}, {"center_distance": 74.2})]
+    assert sums[0].value == pytest.approx(0.21, rel=1e-14)
+    assert sums[1].value == pytest.approx(0.418755997685981579, rel=1e-12)  # mpmath, 30 digits
+    assert sums[1].symbol == "x_Sigma"
+
+
 def test_interference_of_a_small_pinion_with_a_large_gear():
     pair = GearPair.from_shift(1.0, (10, 100))
     assert pair.interference_margin[1] < 0.0 < pair.interference_margin[0]  # the wheel's tip digs into the pinion
