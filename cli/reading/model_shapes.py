@@ -92,9 +92,9 @@ def _choices(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The words of which a value is one; nothing where it may be another, or where they are many."""
     shapes = [shape for shape, _ in shapes_at(model, path, data)[0]]
     words = list(dict.fromkeys(word for shape in shapes for word in get_args(shape)))
-    if any(get_origin(shape) is not Literal for shape in shapes) or not 1 < len(words) <= _MOST_KEYS:
+    if any(get_origin(shape) is not Literal for shape in shapes) or not 1 <= len(words) <= _MOST_KEYS:
         return ""
-    return f"{', '.join(map(str, words[:-1]))} or {words[-1]}"
+    return " or ".join(filter(None, [", ".join(map(str, words[:-1])), str(words[-1])]))
 
 
 def _its_keys(model: type[BaseModel], path: KeyPath) -> str:

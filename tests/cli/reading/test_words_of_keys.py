@@ -175,3 +175,9 @@ def test_the_limits_of_a_source(word: str) -> None:
 )
 def test_letters_of_textbooks(kind: str, word: str, key: str) -> None:
     assert f"`{key}" in next(each.help for each in told({**WORKED[kind], word: 7.5}) if each.key == word)
+
+
+@pytest.mark.parametrize(("kind", "path"), [("cylindrical-cam", "follower.type"), ("geneva-drive", "type")])
+def test_a_missing_word_is_named_though_it_be_the_only_one(kind: str, path: str) -> None:
+    (found,) = told(without(WORKED[kind], path))
+    assert found.help.endswith("(translating-roller)" if kind == "cylindrical-cam" else "(external or internal)")
