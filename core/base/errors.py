@@ -140,5 +140,8 @@ class in_section(at_key):
 
     def __exit__(self, _kind: object, error: object, _traceback: object) -> Literal[False]:
         if isinstance(error, NoSolution):
-            error.key = f"{self._key}.{error.key}" if error.key else self._key
+            inner, error.key = error.key, f"{self._key}.{error.key}" if error.key else self._key
+            for end in (" ", "."):  # a fix that names the key, or one below it, does so by its whole path as well
+                if inner:
+                    error.fix = error.fix.replace(f"set {inner}{end}", f"set {error.key}{end}")
         return False

@@ -57,6 +57,21 @@ def test_a_refusal_that_every_command_meets_is_one_at_its_key(
     assert [(each["file"], each["key"]) for each in ended.json["findings"]] == [("<--set>", key)]
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "fixed"),
+    [
+        ("gears.cutter.teeth", "440", "gears.cutter.teeth below 62"),
+        ("gears.cutter.teeth", "11", "gears.cutter.rounding to at most"),
+    ],
+)
+def test_a_fix_in_a_section_names_the_whole_key(gearlink: Any, designs: Path, key: str, value: str, fixed: str) -> None:
+    """`set cutter.teeth` is the key of a gear pair; with --set it was unknown, and the rounding stood at `kind`."""
+    ended = gearlink("check", designs / "drawn_ring.yaml", "--set", f"{key}={value}", "--format", "json")
+    (found,) = [each for each in ended.json["findings"] if each["status"] == "error"]
+    assert found["key"].startswith("gears.cutter.")
+    assert f"set {fixed}" in found["help"]
+
+
 def test_the_least_swing_that_is_named_is_taken(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "design.yaml"
     path.write_text(_ROCKER.replace("1e-5", "0.000248"))

@@ -382,7 +382,11 @@ class Meshed(GearQuantities, Design):
             return gear_quantity(self.meshes[name], quantity)
         if quantity in _OF_PAIRS and not self.own_teeth:
             return mesh_quantity(self.meshes[name], quantity)
-        return self.mesh_data[name].quantity(quantity) if self._has_involutes(name) else None
+        if not self._has_involutes(name):
+            return None
+        data = self.mesh_data[name]
+        with in_section("gears"):
+            return data.quantity(quantity)
 
     def _has_involutes(self, name: str) -> bool:
         """Whether the tips of a standard ring reach its involutes; where not, a check fails and says so."""
@@ -454,6 +458,7 @@ class Meshed(GearQuantities, Design):
 
         with at_key("gears"):
             known = {mesh: data for mesh, data in self.mesh_data.items() if self._has_involutes(mesh)}
+        with in_section("gears"):
             found = judgement(name, known, self.spec)
         return [check for checks in found.values() for check in checks]
 
@@ -465,7 +470,9 @@ class Meshed(GearQuantities, Design):
         if self.own_teeth and (self.spec.gears.helix_angle or pair.internal):
             from gearlink.core.parts.gears.drawing_checks import pair_check
 
-            return pair_check(name, self.mesh_data[mesh], limits, mesh=mesh, shifts=shifts)
+            data = self.mesh_data[mesh]
+            with in_section("gears"):
+                return pair_check(name, data, limits, mesh=mesh, shifts=shifts)
         return mesh_checks(name, pair, limits, mesh, shifts, self._roles(mesh))
 
     def _judged(self, name: str) -> bool:
