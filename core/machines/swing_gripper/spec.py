@@ -111,10 +111,10 @@ class Phases(Spec):
             raise _phases("balance sizes accelerate, decelerate and return, from the other three", fix)
 
     def _help(self, given: dict[str, float], change: float) -> str:
-        """Which phase may take up the change [deg], the longest."""
-        longest, name = max((length, name) for name, length in given.items())
-        if longest + change > 0.0:
-            return f"set phases.{name} to {longest + change:g} deg"
+        """Which phase may take up the change [deg]: the last, behind which no other moves, or else the longest."""
+        name = "near_dwell" if given["near_dwell"] + change > 0.0 else max(given, key=lambda key: given[key])
+        if given[name] + change > 0.0:
+            return f"set phases.{name} to {given[name] + change:g} deg"
         return f"reduce the phases by {-change:g} deg together"
 
     def _by_key(self) -> dict[str, float | None]:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from gearlink.core.base.errors import MissingSection, NoSolution
 
@@ -80,6 +81,21 @@ def test_without_a_handover_it_is_the_middle_of_the_constant_phase() -> None:
 def test_phases_that_leave_nothing_or_too_much_open_are_refused(phases: dict[str, float], words: str) -> None:
     with pytest.raises(ValueError, match=words):
         gripper(phases)
+
+
+@pytest.mark.parametrize(
+    ("changed", "fix"),
+    [
+        ({"return": 60}, "set phases.near_dwell to 130 deg"),
+        ({"accelerate": 110}, "set phases.near_dwell to 60 deg"),
+        ({"decelerate": 130}, "set phases.decelerate to 50 deg"),
+    ],
+)
+def test_the_last_phase_takes_up_the_change(changed: dict[str, float], fix: str) -> None:
+    """With a longer acceleration, as it was, the handover of the file lay before the constant phase."""
+    with pytest.raises(ValidationError) as refused:
+        gripper(LENGTHS | {"near_dwell": 70} | changed)
+    assert refused.value.errors()[0]["ctx"]["help"] == fix
 
 
 def peaks(design: Any) -> list[float]:
