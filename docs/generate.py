@@ -15,6 +15,7 @@ from typing import Any
 
 from gearlink.cli import glossary
 from gearlink.cli.commands.verify import Outcome, computed, computed_digits, difference, limit
+from gearlink.cli.reading.design_file import load, parse, validate
 from gearlink.cli.render.markdown_report import inline, markdown_table
 from gearlink.cli.texts import schema
 from gearlink.cli.texts.schema import Index, known_keys, worked_design
@@ -26,6 +27,7 @@ from gearlink.core.base.nomenclature import ALIASES, TERMS
 TARGET = Path(__file__).parent / "nomenclature.md"
 GLOSSARY = Path(__file__).parent / "glossary.md"
 VALIDATION = Path(__file__).parent / "validation.md"
+_DESIGNS = Path(__file__).parents[1] / "designs"
 _HEAD = """# Nomenclature
 
 A quantity has one name, the same in design files, results, code and messages. Gears follow ISO 21771,
@@ -165,6 +167,7 @@ def made() -> Index:
     return Index(
         {check: [kind.name for kind in FILES.values() if _makes(kind, check)] for check in checks},
         {name: list(_givers(name, shown)) for name in TERMS},
+        _other_units(),
         [*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567"],
         {kind.name: _first_command(kind, worked_design(kind)) for kind in FILES.values()},
         {name: [(words, *who) for words, who in texts.items()] for name, texts in sorted(_tables().items())},
@@ -217,9 +220,25 @@ def _givers(name: str, shown: dict[str, tuple[dict[str, set[str]], set[str]]]) -
             yield f"{kind} (where the file has the sections for it)"
 
 
-def _first_command(kind: Kind, text: str) -> str:
-    from gearlink.cli.reading.design_file import parse, validate
+def _other_units() -> dict[str, dict[str, list[str]]]:
+    """Units of quantities in the designs of this repository, where they are not those of the nomenclature."""
+    found: dict[str, dict[str, list[str]]] = {}
+    for path in sorted(_DESIGNS.glob("*.yaml")):
+        loaded = load(path)
+        kind = FILES[loaded.data["kind"]]
+        if kind.name == "machine":
+            continue  # its quantities are those of its members
+        spec = validate(loaded, kind.spec_model())
+        for cls in dict.fromkeys(kind.class_for(command, spec) for command in spec.commands()):
+            for name in cls.names_for(spec):
+                last, unit = name.rpartition(".")[2], cls.unit_for(spec, name)
+                if unit != TERMS[last].unit:
+                    kinds = found.setdefault(last, {}).setdefault(unit, [])
+                    kinds += [kind.name] if kind.name not in kinds else []
+    return dict(sorted(found.items()))
 
+
+def _first_command(kind: Kind, text: str) -> str:
     return str(validate(parse(text.encode(), "template"), kind.spec_model()).commands()[0])
 
 

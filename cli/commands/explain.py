@@ -131,8 +131,11 @@ def run_explain(subject: str | None, format: Format) -> int:
 
 
 def find(subject: str) -> list[Topic]:
-    """Every topic of a name, the terms of the field first; blanks, hyphens, underscores and case do not matter."""
-    subject = " ".join(subject.split())
+    """Every topic of a name, the terms of the field first; blanks, hyphens, underscores and case do not matter.
+
+    A number in brackets, as in teeth[0], is that of a list's entry.
+    """
+    subject = re.sub(r"\[\d+\]$", "", " ".join(subject.split()))
     if re.fullmatch(r"(?i)GL\d{3}", subject):  # no term is written so, and no key
         return list(_topics(subject.upper()))
     from gearlink.cli.glossary import meanings_of, named_places, named_terms
@@ -421,12 +424,18 @@ def _quantity(name: str) -> Topic:
         "Meaning": entry.words,
         "Symbol": entry.symbol,
         "Alias": ", ".join(alias for alias, fixed in ALIASES.items() if fixed == name),
-        "Unit": entry.unit if entry.unit != "1" else "1 (no dimension)",
+        "Unit": "; ".join(_units(name, entry.unit)),
         "Formula": FORMULAS.get(name, ""),
         "Source": entry.source,
         "Given by": "; ".join(index().quantities[name]),
     }
     return Topic("quantity", name, entry.words, {label: words for label, words in paragraphs.items() if words})
+
+
+def _units(name: str, usual: str) -> Iterator[str]:
+    """The unit of a quantity, and those that it has in the designs of some kinds."""
+    yield usual if usual != "1" else "1 (no dimension)"
+    yield from (f"{unit} ({', '.join(kinds)})" for unit, kinds in index().units.get(name, {}).items())
 
 
 # Kinds and laws

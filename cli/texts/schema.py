@@ -45,6 +45,7 @@ class Index:
     Fields
         checks : check -> kinds that make it
         quantities : quantity -> kinds with the commands that show it
+        units : quantity -> units of designs of some kinds that are not those of the nomenclature -> these kinds
         laws : names of motion laws
         first_commands : kind -> the first command that its example asks for
         tables : table -> what it holds, the kinds of which that is said, and a command that gives it
@@ -52,6 +53,7 @@ class Index:
 
     checks: dict[str, list[str]]
     quantities: dict[str, list[str]]
+    units: dict[str, dict[str, list[str]]]
     laws: list[str]
     first_commands: dict[str, str]
     tables: dict[str, list[tuple[str, list[str], str]]]

@@ -663,12 +663,7 @@ _GRIPPER = {
     "handover_center": Term("O_t", "mm", "cylinder axis whose pitch circle the tip meets on the line of centres"),
     "cam_center": Term("O", "mm", "cam axis in the machine's frame"),
     "closing_torque": Term("T_s", "N m", "torque of the closing spring on each rocker", "own derivation"),
-    "lift_off_speed": Term(
-        "n*",
-        "sheets/h",
-        "speed at which the follower leaves its cam (swing-gripper: sheets/h, else 1/min)",
-        "own derivation",
-    ),
+    "lift_off_speed": Term("n*", "sheets/h", "speed at which a follower leaves its cam", "own derivation"),
 }
 
 _SWING = {

@@ -157,7 +157,7 @@ def test_quantity_says_unit_symbol_formula_and_who_gives_it(gearlink: Any) -> No
 
 def test_lift_off_speed_is_that_of_each_kind_with_its_unit(gearlink: Any) -> None:
     topic = gearlink("explain", "lift_off_speed", "--format", "json").json["topics"][1]
-    assert "swing-gripper: sheets/h, else 1/min" in topic["title"]
+    assert topic["unit"] == "sheets/h; 1/min (disc-cam, measured-cam, wide-swing-cam)"
     assert all(f"{kind}: n* = " in topic["formula"] for kind in ("disc-cam", "swing-gripper", "wide-swing"))
 
 
@@ -374,6 +374,33 @@ def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
         for table in made.outline(command).tables:
             columns = made.table(table, samples=2).columns
             assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
+
+
+@pytest.mark.parametrize(
+    ("name", "units"),
+    [
+        ("lift_off_speed", "sheets/h; 1/min (disc-cam, measured-cam, wide-swing-cam)"),
+        ("velocity_max", "mm/rad; 1 (disc-cam); mm/s (planar-mechanism)"),
+        ("crank_length", "mm"),
+    ],
+)
+def test_a_quantity_names_its_units_in_all_kinds(name: str, units: str) -> None:
+    """Oscillating followers have angles, outputs of a planar mechanism real speeds, presses sheets."""
+    assert next(topic for topic in find(name) if topic.about == "quantity").paragraphs["Unit"] == units
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("member_input", "at which its errors count"),
+        ("output_error_at_print", "at register.at"),
+        ("alone_removes", "fail it and nothing else"),
+        ("tip_thickness[0]", "tip_thickness"),
+        ("teeth[1]", "teeth of gear 1 and 2"),
+    ],
+)
+def test_columns_of_machines_and_studies_are_known(name: str, words: str) -> None:
+    assert any(words in f"{topic.name} {topic.title}" for topic in find(name))
 
 
 @pytest.mark.slow
