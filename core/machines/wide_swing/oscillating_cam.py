@@ -557,7 +557,7 @@ def greatest_need(cam: OscillatingCam) -> Extreme:
     value, place = np.maximum(value, 1.0), np.where(value < 1.0, 0.0, place)
     if isinstance(cam.law, AimedLaw):
         middle = cam.law.law.middle_place
-        lost = np.logical_or(*((start <= middle) & (middle <= end) for start, end in cam.contact))
+        lost = np.any([(start <= middle) & (middle <= end) for start, end in cam.contact], axis=0)
         value, place = np.where(lost, np.inf, value), np.where(lost, middle, place)
     return Extreme(number_of(value), number_of(place))
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import mpmath as mp
 import pytest
+from factory import design
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from sweeps import ALL, examples
