@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam
+from gearlink.core.machines.wide_swing.cam import CurveState, StrokeLaw, WideSwingCam
 from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
@@ -33,6 +36,37 @@ SECTORS = ("stroke", "rest", "free", "rest before")
 _TURN = 2.0 * math.pi
 _RAMP = 0.1
 """Share of the free sector over which the clearance grows from the arc's, and falls to it again."""
+
+
+_PLACES, _SAMPLES = (0.0, 3.0, 4.0, 7.0, 8.0), 4097
+"""Where the sectors start among the places that are searched for a cut: a stroke has three times those of a rest."""
+
+
+def _parts_of_sectors(places: Reals) -> Iterator[tuple[int, NDArray[np.intp], Reals]]:
+    """Number of each sector, which places lie in it, and there the parts of it."""
+    number = np.searchsorted(_PLACES[1:4], places, side="right")
+    for sector, (start, end) in enumerate(pairwise(_PLACES)):
+        here = np.flatnonzero(number == sector)
+        if here.size:
+            yield sector, here, (places[here] - start) / (end - start)
+
+
+Seen: TypeAlias = tuple[MiddleView, Reals]
+
+
+def _seen(law: StrokeLaw, turn: Reals) -> Seen:
+    """A law, and k - k*, at its angles."""
+    return law.view_at(turn), law.share_from_middle(turn)
+
+
+def _seen_again(law: Any, turn: Reals) -> Seen:
+    """The same, kept for the other cam and other designs of one law, which ask at the same angles."""
+    return _kept(law, turn.tobytes())
+
+
+@lru_cache(maxsize=8)
+def _kept(law: StrokeLaw, turns: bytes) -> Seen:
+    return _seen(law, np.frombuffer(turns))
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,16 +187,18 @@ class ClosedCam:
         theta = t - 0.5 * self.own
         return replace(at, k=end * ones, theta=theta, psi=at.psi * ones, turning=ones, s=at.s * ones).resting()
 
-    def _by_turn(self, sector: int, place: Reals) -> tuple[CurveState, Reals]:
-        """The state, and the cam angle, where a place divides a stroke evenly by the angle of the law."""
-        if sector % 2:
-            return self.state(sector, place), place
+    def _by_turn(
+        self, sector: int, part: Reals, seen: Callable[[StrokeLaw, Reals], Seen] = _seen
+    ) -> tuple[CurveState, Reals]:
+        """The state, and the cam angle, at parts of a sector, which divide a stroke evenly by the angle of the law."""
         start, end, law = self.starts[sector], self.starts[sector + 1], self.cam.law
+        if sector % 2:
+            t = start + part * (end - start)
+            return self.state(sector, t), t
         sense = 1.0 if sector == 0 else -1.0
-        turn = sense * law.turns[1] * np.clip(2.0 * (place - start) / (end - start) - 1.0, -1.0, 1.0)
-        share = law.share_from_middle(turn)
+        view, share = seen(law, sense * law.turns[1] * (2.0 * part - 1.0))
         t = start + (0.5 + sense * share) * (end - start)
-        return self._driven(sector, law.view_at(turn), share, t), t
+        return self._driven(sector, view, share, t), t
 
     def pitch(self, t: Reals) -> Points:
         """Roller centres in the cam's frame at cam angles from 0 to a revolution [mm]."""
@@ -253,21 +289,19 @@ class ClosedCam:
 
         def points(places: Reals) -> tuple[Points, Points]:
             pitch, contour = (np.empty(places.shape, dtype=np.complex128) for _ in range(2))
-            number = self.sector_at(places)
-            for sector in range(4):
-                here = (number == sector).nonzero()[0]
-                if here.size:
-                    state, t = self._by_turn(sector, places[here])
-                    pitch[here] = centres = self._pitch(state)
-                    contour[here] = self._contour(sector, state, t, centres)
+            for sector, here, part in _parts_of_sectors(places):
+                state, t = self._by_turn(sector, part, _seen_again)
+                pitch[here] = centres = self._pitch(state)
+                contour[here] = self._contour(sector, state, t, centres)
             return pitch, contour
 
-        found = undercut(points, self.cam.roller_radius)
+        found = undercut(points, self.cam.roller_radius, end=_PLACES[4], samples=_SAMPLES)
         if found.depth == 0.0:
             return found
-        places = np.array([found.cam_angle, found.roller_angle])
-        at = [float(self._by_turn(int(k), places[i : i + 1])[1][0]) for i, k in enumerate(self.sector_at(places))]
-        return Undercut(found.depth, *at)
+        at = np.empty(2)
+        for sector, here, part in _parts_of_sectors(np.array([found.cam_angle, found.roller_angle])):
+            at[here] = self._by_turn(sector, part)[1]
+        return Undercut(found.depth, *at.tolist())
 
     @cached_property
     def largest_clearance(self) -> float:
@@ -286,16 +320,16 @@ class ClosedCam:
         distance of the contour from the axis [mm]; of its first half, of which the other is the mirror image."""
         cam, roller = self.cam, self.cam.roller_radius
 
-        def each(place: Reals) -> tuple[Reals, Reals, Reals]:
-            state, t = self._by_turn(2, place)
+        def each(part: Reals) -> tuple[Reals, Reals, Reals]:
+            state, t = self._by_turn(2, part)
             bend = np.maximum(0.0, state.bulge / cam.center_distance)
             with np.errstate(divide="ignore", invalid="ignore"):
                 worst = self._share(t) * bend / (1.0 - roller * bend)
             return bend, worst, np.abs(self._contour(2, state, t, self._pitch(state)))
 
-        of, half = kept_last(each), (self.starts[2], 0.5 * (self.starts[2] + self.starts[3]))
-        wanted = [(lambda place, i=i: of(place)[i], i < 2) for i in range(3)]
-        return tuple(extremes_over(wanted, *half, samples=128))
+        of = kept_last(each)
+        wanted = [(lambda part, i=i: of(part)[i], i < 2) for i in range(3)]
+        return tuple(extremes_over(wanted, 0.0, 0.5, samples=128))
 
     @cached_property
     def least_radius(self) -> float:

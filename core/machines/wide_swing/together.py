@@ -6,7 +6,7 @@ from collections.abc import Hashable, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -49,6 +49,7 @@ _OF_LAWS = _OF_POWER | {
     *("velocity_peak", "acceleration_peak", "slider_velocity_peak", "slider_acceleration_peak", "dynamic_coefficient"),
 }
 """Quantities by extremes of the laws of rockers with sliders."""
+Part = TypeVar("Part")
 _GEOMETRY = (
     "ratio", "half_sine", "half_cosine", "shortest", "longest", "reach", "stroke", "mounting", "stiffness",
 )  # fmt: skip
@@ -63,7 +64,8 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
         asked : names of the quantities and checks that will be asked for
     """
     _share_laws(designs, asked)
-    cams = [cam for design in designs for cam in _cams_of(design) if cam.given_rocker_radius is None]
+    _share_cams(designs)
+    cams = _once([cam for design in designs for cam in _cams_of(design) if cam.given_rocker_radius is None])
     for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law))):
         sought(lambda some: _find_cams(some, asked), group)
     driven = [design for design in designs if _is_driven(design)]
@@ -73,38 +75,28 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
         moving = [design for design in designs if _is_pressed(design)]
         sought(_find_forces, moving)
     if "closed-contour" in asked:
-        closed = [cam for design in designs if design.spec.cycle is not None for cam in _contours(design)]
+        whole = [design.cycle for design in designs if design.spec.cycle is not None and design.spec.cam is not None]
+        for name in ("main", "back"):
+            _share(whole, name)
+        closed = _once([cam for design in designs if design.spec.cycle is not None for cam in _contours(design)])
         for cycle in in_groups(closed, _alike):
             sought(_find_free_sectors, cycle)
 
 
 def _share_laws(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> None:
     """Designs of one device and swing, and one slider, have one law, of which what is known serves all."""
-    known: dict[Any, Any] = {}
-    for design in designs:
-        for name in ("plain_law",) if design.spec.slider is None else ("plain_law", "slider"):
-            with suppress(GearlinkError):
-                law = getattr(design.motion, name)
-                keep(design.motion, **{name: known.setdefault(law, law)})
-    sliding = [law for law in known if isinstance(law, SliderLaw)]
-    if sliding and asked & _OF_LAWS:
+    alone = [design.motion for design in designs if design.spec.slider is None]
+    plain = _share([design.motion for design in designs], "plain_law")
+    if alone and asked & _OF_POWER:
+        sought(lambda laws: hand_out(law_of(laws), laws, "power_peak"), plain)
+    with_slider = [design for design in designs if design.spec.slider is not None]
+    sliding = _share([design.motion for design in with_slider], "slider")
+    if asked & _OF_LAWS:
         sought(lambda laws: hand_out(law_of(laws), laws, "peaks"), sliding)
-    elif asked & _OF_POWER:
-        sought(lambda laws: hand_out(law_of(laws), laws, "power_peak"), list(known))
-    with_cam = [design for design in designs if design.spec.cam is not None and _has_slider(design)]
+    with_cam = [design for design in with_slider if design.spec.cam is not None and "slider" in vars(design.motion)]
     if with_cam and with_cam[0].spec.drive is not None:
         sought(_aim, with_cam)
-    aimed: dict[AimedLaw, AimedLaw] = {}
-    for design in with_cam:
-        with suppress(GearlinkError):
-            keep(design, aimed_law=aimed.setdefault(design.aimed_law, design.aimed_law))
-    sought(_find_aimed, list(aimed))
-
-
-def _has_slider(design: WideSwingDesign) -> bool:
-    with suppress(GearlinkError):
-        return design.spec.slider is not None and design.motion.slider.stroke > 0.0
-    return False
+    sought(_find_aimed, _share(with_cam, "aimed_law"))
 
 
 def _aim(designs: Sequence[WideSwingDesign]) -> None:
@@ -134,6 +126,27 @@ def _drive_of(drives: Sequence[CrankRockerDrive]) -> CrankRockerDrive:
     many = stacked(drives)
     hand_in(many, drives, "crank_angles", "_middle")
     return many
+
+
+def _share_cams(designs: Sequence[WideSwingDesign]) -> None:
+    """Designs with alike cams have one of each."""
+    some = [design for design in designs if design.spec.drive is None and design.spec.cam is not None]
+    for name in ("even_cam", "return_cam", "slider_cam"):
+        _share(some, name)
+
+
+def _share(owners: Sequence[Any], name: str) -> list[Any]:
+    """Let owners of alike results have one, and return each of these; what is wrong with others they say themselves."""
+    known: dict[Any, Any] = {}
+    for owner in owners:
+        with suppress(GearlinkError):
+            value = getattr(owner, name)
+            keep(owner, **{name: known.setdefault(value, value)})
+    return list(known)
+
+
+def _once(parts: Sequence[Part]) -> list[Part]:
+    return list({id(part): part for part in parts}.values())
 
 
 def _cams_of(design: WideSwingDesign) -> list[WideSwingCam]:

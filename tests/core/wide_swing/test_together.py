@@ -182,6 +182,15 @@ def test_laws_of_many_rockers_are_read_backwards_together() -> None:
             assert found == pytest.approx(k[row], rel=0.0, abs=1e-14)
 
 
+def test_designs_of_alike_cams_share_them() -> None:
+    found = _found("wide_swing_parallel", {"cam.second.direction": 5.0}, "closed-contour")
+    assert len({id(design.even_cam) for design in found}) == len({id(design.cycle.main) for design in found}) == 1
+    assert found[0].even_cam is not found[0].return_cam
+    found = _found("wide_swing_slider_drive", {"cam.roller_radius": 1.0}, "max_radius")
+    assert len({id(design.aimed_law) for design in found}) == 1
+    assert len({id(design.cam) for design in found}) == 9
+
+
 @pytest.mark.slow
 def test_those_that_do_not_exist_leave_the_others_found_together() -> None:
     wrong: list[list[tuple[str, Any]]] = [
