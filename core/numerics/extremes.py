@@ -610,7 +610,7 @@ def _enlarged(
         low = peak + spread < np.array([top.value for top in best])[of]
         narrow = right - left <= finest
         missed = ((i == 0) & (left > safe_left)) | ((i == POINTS - 1) & (right < safe_right))
-        going = missed | ~(narrow | flat | low | is_noise(v))
+        going = (missed | ~(narrow | flat | low | is_noise(v))) & np.isfinite(peak)  # nothing is above inf
         if not going.all():
             if not going.any():
                 return

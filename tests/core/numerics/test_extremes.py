@@ -165,6 +165,15 @@ def test_a_place_beside_an_end_that_is_better_by_more_than_rounding_stays() -> N
     assert top.place == pytest.approx(kink, abs=4 * EPS)
 
 
+@pytest.mark.parametrize(("steep", "size"), [(45.19, 2.81), (35.92, 0.52), (10.49, 1.54), (8.31, 0.25)])
+def test_a_search_ends_where_it_meets_a_pole(steep: float, size: float) -> None:
+    """Of one random pole in a hundred a sample is the pole itself: no parabola goes through inf, and none is above."""
+    with np.errstate(divide="ignore"):
+        top = maximum_over(lambda x: size / (1.0 - steep * np.sin(x)), 0.0, 2.0, samples=128)
+    assert top.value > 1e9
+    assert top.place == pytest.approx(math.asin(1.0 / steep), abs=1e-9 / steep)
+
+
 def test_no_convex_part_has_no_least_radius() -> None:
     assert least_convex_radius(lambda x: -0.01 + 0.0 * x).value == math.inf
     assert least_convex_radius(lambda x: 0.01 * np.cos(x)).value == pytest.approx(100.0, rel=4 * EPS)
