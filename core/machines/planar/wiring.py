@@ -79,9 +79,13 @@ def _near(wrong: str, known: Iterable[str]) -> str:
     return f"there are {', '.join(names[:12])}{' ...' if len(names) > 12 else ''}" if names else "there is none"
 
 
+def _called(what: str, name: str, known: Iterable[str], key: str) -> Iterator[Fault]:
+    if name not in known:
+        yield "GL111", key, f"no {what} is called {named(name)}: {_near(name, known)}"
+
+
 def _body(spec: PlanarSpec, name: str, key: str) -> Iterator[Fault]:
-    if name != FRAME and name not in spec.links:
-        yield "GL111", key, f"no link is called {named(name)}: {_near(name, [FRAME, *spec.links])}"
+    return _called("link", name, [FRAME, *spec.links], key)
 
 
 def _point(spec: PlanarSpec, point: str, body: str, key: str) -> Iterator[Fault]:
@@ -94,8 +98,7 @@ def _slides(spec: PlanarSpec) -> Iterator[Fault]:
     taken: dict[str, str] = {}
     for name, slide in spec.slides.items():
         key = f"slides.{name}"
-        if slide.link not in spec.links:
-            yield "GL111", f"{key}.link", f"no link is called {named(slide.link)}: {_near(slide.link, spec.links)}"
+        yield from _called("link", slide.link, spec.links, f"{key}.link")
         yield from _body(spec, slide.on, f"{key}.on")
         if slide.on == slide.link:
             yield "GL111", f"{key}.on", "a link cannot slide on itself\nname the body that has the line"
@@ -121,12 +124,7 @@ def _slides(spec: PlanarSpec) -> Iterator[Fault]:
 def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
     if mesh.gears is None:
         yield from _body(spec, mesh.rack or "", f"{key}.rack")
-        if mesh.pinion not in spec.links:
-            yield (
-                "GL111",
-                f"{key}.pinion",
-                f"no link is called {named(mesh.pinion or '')}: {_near(mesh.pinion or '', spec.links)}",
-            )
+        yield from _called("link", mesh.pinion or "", spec.links, f"{key}.pinion")
         yield from _point(spec, str(mesh.at), mesh.pinion or "", f"{key}.at")
         if mesh.rack == mesh.pinion:
             yield "GL111", f"{key}.pinion", "rack and pinion are one link\nname two"
@@ -152,9 +150,7 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
 
 def _cam(spec: PlanarSpec, key: str, cam: CamPair) -> Iterator[Fault]:
     for part in ("cam", "follower"):
-        link = getattr(cam, part)
-        if link not in spec.links:
-            yield "GL111", f"{key}.{part}", f"no link is called {named(link)}: {_near(link, spec.links)}"
+        yield from _called("link", getattr(cam, part), spec.links, f"{key}.{part}")
     if cam.cam == cam.follower:
         yield "GL111", f"{key}.follower", "cam and follower are one link\nname two"
     yield from _point(spec, cam.point, cam.follower, f"{key}.point")
@@ -182,16 +178,15 @@ def bearer_of(spec: PlanarSpec, cam: CamPair) -> str | None:
 
 def _drives(spec: PlanarSpec) -> Iterator[Fault]:
     drive = spec.drive
-    if drive.link is not None and drive.link not in spec.links:
-        yield "GL111", "drive.link", f"no link is called {named(drive.link)}: {_near(drive.link, spec.links)}"
-    if drive.slide is not None and drive.slide not in spec.slides:
-        yield "GL111", "drive.slide", f"no slide is called {named(drive.slide)}: {_near(drive.slide, spec.slides)}"
+    if drive.link is not None:
+        yield from _called("link", drive.link, spec.links, "drive.link")
+    if drive.slide is not None:
+        yield from _called("slide", drive.slide, spec.slides, "drive.slide")
     if drive.link in spec.slid:
         yield "GL111", "drive.link", f"{drive.link} slides\ngive slide: {spec.slid[drive.link]} instead of link"
     for name in drive.others:
-        key, known = f"drive.with.{name}", [*spec.links, *spec.slides]
-        if name not in known:
-            yield "GL111", key, f"no link or slide is called {named(name)}: {_near(name, known)}"
+        key = f"drive.with.{name}"
+        yield from _called("link or slide", name, [*spec.links, *spec.slides], key)
         if name in spec.slid:
             yield "GL111", key, f"{name} slides\nname its slide {spec.slid[name]} instead of the link"
         if name == drive.main:
@@ -206,8 +201,7 @@ def _starts(spec: PlanarSpec) -> Iterator[Fault]:
     for name in spec.start:
         if name in spec.slid:
             yield "GL111", f"start.{name}", f"{name} slides\ngive the position of {spec.slid[name]}, or omit it"
-        if name not in known:
-            yield "GL111", f"start.{name}", f"no link or slide is called {named(name)}: {_near(name, known)}"
+        yield from _called("link or slide", name, known, f"start.{name}")
     given = {spec.drive.main, *spec.drive.others, *tied(spec).values(), *spec.start, *spec.slid}
     for name in spec.links:
         if name not in given:
@@ -248,9 +242,7 @@ def _outputs(spec: PlanarSpec) -> Iterator[Fault]:
     points = dict.fromkeys(point for link, body in spec.bodies.items() if link != FRAME for point in body)
     known = [*spec.links, *spec.slides, *spec.slots, *points]
     for k, name in enumerate(spec.outputs or ()):
-        if name not in known:
-            words = f"no link, slide, slot or point of a link is called {named(name)}: {_near(name, known)}"
-            yield "GL111", f"outputs[{k}]", words
+        yield from _called("link, slide, slot or point of a link", name, known, f"outputs[{k}]")
         if name in (spec.outputs or ())[:k]:
             yield "GL111", f"outputs[{k}]", f"{name} is listed twice\nomit one"
     for name in spec.shafts:
