@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -19,7 +19,6 @@ from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.numerics.extremes import maximum_over
-from gearlink.core.parts.cams import profile
 from gearlink.core.parts.cams.checks import (
     flat_undercut_check,
     hub_checks,
@@ -50,6 +49,9 @@ _SQUARE = 1e-9  # cosine of a right angle
 _OUTLINE, _BEYOND = 721, 0.1
 _FOOT_ROUNDS, _FOOT = 12, 1e-11  # rad, after which another step would be rounding
 _UPON = 2e-12  # rad, from a joint of a law: rounding
+_LARGER = "set the follower farther from the cam, or give its motion more cam angle"
+_USUAL = {True: 30.0, False: 45.0}
+"""Maximum pressure angle of a follower that slides, and of one that turns [deg]."""
 
 
 class Lift(NamedTuple):
@@ -451,28 +453,17 @@ class CamJoint:
         if abs(self._start) <= radius:
             what = f"prime radius {short(abs(self._start))} mm is not above roller_radius {short(radius)} mm"
             raise NoSolution(what, key=f"{self.key}.roller_radius", fix="take a smaller roller, or move the follower")
-        return DiscCam(title, self._path(), self.sense, radius, joints, self.key)
+        return DiscCam(title, self._path, self.sense, radius, joints, self.key)
 
-    def _path(self) -> Callable[[Reals, int], RollerPath]:
-        motion, away, start = self.motion, self.away, self._start
+    def _path(self, phi: Reals, order: int) -> RollerPath:
+        place, *rates = self._centres(phi, max(order, 1))
         if self.slide is not None:
-            u = away * cmath.exp(1j * self.slide.line.direction)
-            seen = start * u.conjugate()
-
-            def slid(phi: Reals, order: int) -> RollerPath:
-                s, *rates = motion.evaluate(phi, max(order, 1))
-                return profile.translating(seen.real + s, *rates[:2], direction=u, offset=-seen.imag)
-
-            return slid
-        assert self._pivot is not None
-        pivot = self._pivot[0] - self.axis
-        arm, first = abs(start - pivot), cmath.phase(start - pivot)
-
-        def turned(phi: Reals, order: int) -> RollerPath:
-            s, *rates = motion.evaluate(phi, max(order, 1))
-            return profile.oscillating(pivot, arm, first + away * s, *(away * rate for rate in rates[:2]))
-
-        return turned
+            way = np.full(phi.shape, self.away * cmath.exp(1j * self.slide.line.direction))
+        else:
+            assert self._pivot is not None
+            arm = place - (self._pivot[0] - self.axis)
+            way = 1j * arm / np.abs(arm)
+        return RollerPath(place, rates[0], rates[1] if order > 1 else np.zeros_like(place), way)
 
     def _touch(self) -> Callable[[Reals], Touch]:
         if self.slide is not None:
@@ -543,6 +534,34 @@ class CamJoint:
         at, own = self._pivot
         return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self.ahead.conjugate())
 
+    # Checks
+
+    def check_pressure_angle(self, limit: float | None) -> Iterator[Check]:
+        """GL401; the limit in degrees, None for the usual one."""
+        return pressure_angle_checks([self.profile], limit or _USUAL[self.slide is not None], _LARGER)
+
+    def check_undercut(self) -> Iterator[Check]:
+        """GL402."""
+        found = self.profile
+        if isinstance(found, FlatCam):
+            yield flat_undercut_check(found, 0.0, f"set the follower of {self.name} farther from the cam by {{}} mm")
+        else:
+            yield from undercut_checks([found], plainly=_LARGER)
+
+    def check_step(self) -> Check:
+        """GL404."""
+        unit = "mm/rad^2" if self.slide is not None else "1/rad"
+        steps = [(f"{place} of cam {self.name}", jump) for place, jump in self.motion.steps(2)]
+        fix = "use laws that end with zero acceleration, such as cycloidal"
+        return step_check(ACCELERATION_STEP, steps, self.bend, unit, "warn", fix)
+
+    def check_shaft(self) -> Iterator[Check]:
+        """GL302 against its own shaft."""
+        return hub_checks(SHAFT_CLEARANCE, [self.profile], self.shaft, self._farther)
+
+    def _farther(self, by: float) -> str:
+        return f"set the follower of {self.name} farther from the cam by {safely_above(by)} mm"
+
 
 def _on_side(evaluate: Callable[[int], Sequence[Array]], back: Mask, side: int) -> Sequence[Array]:
     """What a law is just after inputs (side 1) or just before them; where it is run through backwards, on the other."""
@@ -565,52 +584,3 @@ def _turned(arm: complex, a: Sequence[Reals]) -> list[Points]:
     if len(a) > 3:
         found.append((1j * a[3] - 3.0 * a[1] * a[2] - 1j * a[1] ** 3) * e)
     return found
-
-
-# Checks
-
-_LARGER = "set the follower farther from the cam, or give its motion more cam angle"
-_USUAL = {True: 30.0, False: 45.0}
-"""Maximum pressure angle of a follower that slides, and of one that turns [deg]."""
-
-
-def pressure_checks(structure: Structure) -> Iterator[Check]:
-    """GL401 of every cam."""
-    given = structure.spec.limits.pressure_angle
-    for cam in structure.cams.values():
-        yield from pressure_angle_checks([cam.profile], given or _USUAL[cam.slide is not None], _LARGER)
-
-
-def undercuts(structure: Structure) -> Iterator[Check]:
-    """GL402 of every cam."""
-    for cam in structure.cams.values():
-        found = cam.profile
-        if isinstance(found, FlatCam):
-            yield flat_undercut_check(found, 0.0, f"set the follower of {cam.name} farther from the cam by {{}} mm")
-        else:
-            yield from undercut_checks([found], plainly=_LARGER)
-
-
-def step_checks(structure: Structure) -> Iterator[Check]:
-    """GL404 of every cam."""
-    for name, cam in structure.cams.items():
-        unit = "mm/rad^2" if cam.slide is not None else "1/rad"
-        steps = [(f"{place} of cam {name}", jump) for place, jump in cam.motion.steps(2)]
-        yield step_check(
-            ACCELERATION_STEP,
-            steps,
-            cam.bend,
-            unit,
-            "warn",
-            "use laws that end with zero acceleration, such as cycloidal",
-        )
-
-
-def shaft_checks(structure: Structure) -> Iterator[Check]:
-    """GL302 of every cam against its own shaft."""
-    for name, cam in structure.cams.items():
-        yield from hub_checks(SHAFT_CLEARANCE, [cam.profile], cam.shaft, partial(_farther, name))
-
-
-def _farther(name: str, by: float) -> str:
-    return f"set the follower of {name} farther from the cam by {safely_above(by)} mm"

@@ -27,20 +27,18 @@ from gearlink.core.machines.planar.system import (
     driven_row,
     joined,
     joint_rows,
-    mesh_row,
-    pins_of,
+    meshes_at_rest,
     scaled,
     split,
 )
 from gearlink.core.mechanism.blocks import Block
-from gearlink.core.mechanism.follow import JAM, MOST_TURNS, Place, Walk
+from gearlink.core.mechanism.follow import JAM, MOST_TURNS, TURN, Place, Walk
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.roots_sweep import newton_closed
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.cams import CamJoint, Lift
 
-_TURN = 2.0 * math.pi
 _SINGULAR = 1e-12
 _HOME = 1e-7, 1e-6  # rad, and shares of size
 _MOST = 4_000_000  # numbers of the matrices that are looked at together
@@ -200,7 +198,7 @@ class Course:
         x, t = split(np.array([place.u]))
         x0, t0 = self.at_start.closed
         apart = t[0] - t0
-        turned, moved = np.abs(apart - _TURN * np.round(apart / _TURN)).max(), np.abs(x[0] - x0).max()
+        turned, moved = np.abs(apart - TURN * np.round(apart / TURN)).max(), np.abs(x[0] - x0).max()
         return bool(turned < _HOME[0] and moved < _HOME[1])
 
     @property
@@ -216,14 +214,14 @@ class Course:
     @property
     def end(self) -> float:
         """Last input."""
-        return _TURN * (self.turns or 1) if self.ends is None else self.ends[1]
+        return TURN * (self.turns or 1) if self.ends is None else self.ends[1]
 
     @cached_property
     def gains(self) -> Reals:
         """What the directions gain in a period [rad]; (bodies,), whole revolutions."""
         rows, count = self.walk.rows, self.system.unknowns
         _, t = split(rows[[0, -1], 1 : 1 + count])
-        return np.asarray(_TURN * np.round((t[1] - t[0]) / _TURN))
+        return np.asarray(TURN * np.round((t[1] - t[0]) / TURN))
 
     def dead_centre(self, q: float) -> float:
         """A dead centre next to the last certified input: rates grow as 1/sqrt of the way to it.
@@ -244,7 +242,7 @@ class Course:
     def free_range(self) -> tuple[float | None, float | None] | None:
         """Inputs between which there is no dead centre; None for an end that was not met, or for both."""
         ends: list[float | None] = []
-        far = _FAR if self.by_slide else _TURN * _FAR_TURNS
+        far = _FAR if self.by_slide else TURN * _FAR_TURNS
         for way in (-1.0, 1.0):
             places = [self.walk.origin]
             end = way * max(far, *(2.0 * abs(each * self._scale) for each in self.ends or (0.0,)))
@@ -335,7 +333,7 @@ class Course:
         count = self.system.unknowns
         rates = self.walk.rows[:, 1 + count :]
         fastest = max(1.0, float(np.median(np.abs(rates[:, 2::3]).max(axis=1)))) if not self.by_slide else 1.0
-        turns = (self.end - self.start) / _TURN if not self.by_slide else 1.0
+        turns = (self.end - self.start) / TURN if not self.by_slide else 1.0
         return max(72, math.ceil(360.0 * min(fastest, 20.0) * turns))
 
     @cached_property
@@ -351,19 +349,18 @@ def _crossings(angle: Callable[[Reals], Reals], q: Reals, phi: Reals, joints: Se
     found: list[float] = []
     low, high = float(phi.min()), float(phi.max())
     for joint in joints:
-        for turn in range(math.ceil((low - joint) / _TURN - 1e-9), math.floor((high - joint) / _TURN + 1e-9) + 1):
-            off = phi - (joint + _TURN * turn)
+        for turn in range(math.ceil((low - joint) / TURN - 1e-9), math.floor((high - joint) / TURN + 1e-9) + 1):
+            off = phi - (joint + TURN * turn)
             off = np.where(np.abs(off) <= _AT_JOINT, 0.0, off)
             found += q[off == 0.0].tolist()
             for i in np.flatnonzero(off[:-1] * off[1:] < 0.0):
                 beside = float(q[i]), float(q[i + 1])
                 found.append(
-                    bracketed_root(lambda each: float(angle(np.array([each]))[0]) - (joint + _TURN * turn), *beside)  # noqa: B023
+                    bracketed_root(lambda each: float(angle(np.array([each]))[0]) - (joint + TURN * turn), *beside)  # noqa: B023
                 )
     return found
 
 
-_START_TURN = 2.0 * math.pi
 _STEP = 0.3  # rad and shares of size, the longest step from the rough start
 _START_ROUNDS = 200
 _CLOSED = 1e-11
@@ -373,7 +370,7 @@ _SHARE = 1e-6  # of a null vector: joints with less have no part in it
 
 def wrapped(angle: float) -> float:
     """An angle in (-pi, pi]."""
-    found = math.remainder(angle, _START_TURN)
+    found = math.remainder(angle, TURN)
     return math.pi if found == -math.pi else found
 
 
@@ -413,7 +410,7 @@ class Start:
             )
         rows = joint_rows(structure, {}) + drive_rows(structure, self.exact_starts)
         rows += self.mesh_rows() + self._cam_rows()
-        system = System(len(structure.bodies), pins_of(structure), tuple(rows))
+        system = System.of(structure, rows)
         if freedoms < drives:
             raise self._held(system, freedoms, drives)
         self._require_matching(system)
@@ -679,7 +676,7 @@ class Start:
             name = structure.names[body]
             given = structure.start_of(name) if name not in structure.spec.slid else None
             if given is not None:
-                total += math.remainder(float(t[body]) - given, _START_TURN) ** 2
+                total += math.remainder(float(t[body]) - given, TURN) ** 2
         if total == 0.0:
             for name, slide in structure.slides.items():
                 if slide.line.other in bodies and name in structure.spec.start:
@@ -696,7 +693,7 @@ class Start:
         for name, body in structure.numbers.items():
             given = structure.start_of(name)
             if given is not None and name not in exact:
-                found[name] = abs(math.remainder(float(t[body]) - given, _START_TURN))
+                found[name] = abs(math.remainder(float(t[body]) - given, TURN))
         return found
 
     @cached_property
@@ -705,7 +702,7 @@ class Start:
         t, turns = self.closed[1], {}
         for name, slide in self.structure.slides.items():
             apart = float(t[slide.line.other] - t[slide.line.body]) - slide.line.direction - (slide.lean or 0.0)
-            turns[name] = _START_TURN * round(apart / _START_TURN)
+            turns[name] = TURN * round(apart / TURN)
         return turns
 
     @property
@@ -719,11 +716,11 @@ class Start:
         structure, (x, t) = self.structure, self.closed
         jets = Jets([x[None]], [t[None]])
         rows = [*joint_rows(structure, self.slide_turns), *drive_rows(structure, self.exact_starts)]
-        standing = [mesh_row(mesh, structure.size) for mesh in structure.meshes.values()]
+        rows += meshes_at_rest(structure, jets)
         for name, cam in structure.cams.items():
-            standing.append(cam_row(cam, structure.size, 0.0)._replace(lift=self.lifts[name]))
-        rows += [at_rest(row, len(structure.bodies), jets) for row in standing]
-        system = System(len(structure.bodies), pins_of(structure), tuple(rows))
+            row = cam_row(cam, structure.size, 0.0)._replace(lift=self.lifts[name])
+            rows.append(at_rest(row, len(structure.bodies), jets))
+        system = System.of(structure, rows)
         self._require_matching(system)
         return system
 
@@ -781,11 +778,10 @@ class AsMade(Start):
         rows = [*joint_rows(structure, nominal.slide_turns), *drive_rows(structure, self.exact_starts)]
         every, (x, t) = (structure.count, 1), nominal.closed
         jets = Jets([np.tile(x * (nominal.structure.size / structure.size), every)], [np.tile(t, every)])
-        rows += [at_rest(mesh_row(mesh, structure.size), len(structure.bodies), jets)
-                 for mesh in structure.meshes.values()]  # fmt: skip
+        rows += meshes_at_rest(structure, jets)
         for name, cam in nominal.structure.cams.items():
             rows.append(contact_row(cam, structure, nominal.lifts[name], self.errors.get(name, {})))
-        return System(len(structure.bodies), pins_of(structure), tuple(rows))
+        return System.of(structure, rows)
 
     @cached_property
     def lifts(self) -> dict[str, Any]:
@@ -800,7 +796,7 @@ class AsMade(Start):
         if cam.given.face is None:
             return cam.motion.joints
         phi = np.array([*cam.motion.joints])
-        return tuple(np.mod(cam.support.faces(phi, 0, 1)[0][0], _TURN).tolist())
+        return tuple(np.mod(cam.support.faces(phi, 0, 1)[0][0], TURN).tolist())
 
 
 def _held_back(step: Reals) -> Reals:

@@ -20,6 +20,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
 from gearlink.core.machines.planar.course import Course
+from gearlink.core.machines.planar.dyads import folded
 from gearlink.core.machines.planar.extremes import (
     Extreme,
     Pair,
@@ -29,7 +30,7 @@ from gearlink.core.machines.planar.extremes import (
     turning_points,
 )
 from gearlink.core.machines.planar.gaps import layout
-from gearlink.core.machines.planar.outputs import Moved, moved, point_output
+from gearlink.core.machines.planar.outputs import RATES, Moved, moved, point_output
 from gearlink.core.machines.planar.structure import Structure
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
@@ -150,10 +151,6 @@ GENERAL = (
 )
 CAM_QUANTITIES = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _SIDES = ("max", "max_at", "min", "min_at")
-_RATES = {
-    "link": ("angle", "speed_ratio", "acceleration_ratio", "jerk_ratio"),
-    "line": ("position", "velocity_ratio", "acceleration_ratio", "jerk_ratio"),
-}
 _REAL = {"link": ("speed", "acceleration"), "line": ("velocity", "acceleration")}
 _PER_TIME = {"link": ("rad/s", "rad/s^2"), "line": ("mm/s", "mm/s^2")}
 
@@ -190,7 +187,7 @@ def meanings(parts: tuple[Moved, ...], name: str, per: str, *, timed: bool) -> I
             yield from ((f"{name}.{part.sort}_{side}", Meaning(part, 0, side, False, at if "at" in side else "mm"))
                         for side in _SIDES)  # fmt: skip
             continue
-        for order, rate in enumerate(_RATES[part.sort]):
+        for order, rate in enumerate(RATES[part.sort]):
             unit = "deg" if (part.unit, order) == ("rad", 0) else courses.unit_of(part.unit, order, per)
             yield from ((f"{name}.{rate}_{side}", Meaning(part, order, side, False, at if "at" in side else unit))
                         for side in _SIDES)  # fmt: skip
@@ -211,7 +208,7 @@ def meanings(parts: tuple[Moved, ...], name: str, per: str, *, timed: bool) -> I
 
 def generic() -> tuple[str, ...]:
     """The names that an output may have, under one name for all."""
-    found = [f"{name}_{side}" for sort in _RATES for name in _RATES[sort] for side in _SIDES]
+    found = [f"{name}_{side}" for rates in RATES.values() for name in rates for side in _SIDES]
     found += [f"{axis}_{side}" for axis in "xy" for side in _SIDES]
     found += ["swing", "turns", "stroke", "quick_return_ratio", "path_length", "prime_radius", "base_radius"]
     found += CAM_QUANTITIES
@@ -258,11 +255,6 @@ _CLOSED = 1e-9
 _FAR_OFF = 45.0  # deg
 _ANYWAY = ("degrees_of_freedom", "period_turns")
 _INPUTS = ("free_range", "min_transmission_angle_at")
-
-
-def folded(angle: Any) -> Any:
-    """The acute angle between two lines."""
-    return np.minimum(np.abs(angle) % math.pi, math.pi - np.abs(angle) % math.pi)
 
 
 class PlanarMechanism(Design):
@@ -437,7 +429,6 @@ class PlanarMechanism(Design):
     @property
     def grashof(self) -> list[str] | None:
         """What the four-bars of the driven link on the frame are."""
-
         return loops(self.spec) or None
 
     @property
@@ -449,7 +440,6 @@ class PlanarMechanism(Design):
     @cached_property
     def closure_error(self) -> float:
         """Maximum gap of a joint over the rows [mm]."""
-
         return greatest_gap(self.course)
 
     # Extremes
@@ -491,14 +481,15 @@ class PlanarMechanism(Design):
         self._search(keys)
         return [self._found[key] for key in keys]
 
-    def _search(self, keys: Iterable[tuple[str, int]]) -> None:
-        moving = self.moving_numbers
-        orders: dict[str, list[int]] = {}
+    def wanted(self, keys: Iterable[tuple[str, int]]) -> dict[str, Wanted]:
+        """Numbers with the orders of their derivatives, by name."""
+        moving, orders = self.moving_numbers, dict[str, list[int]]()
         for name, order in dict.fromkeys(keys):
-            if (name, order) not in self._found:
-                orders.setdefault(name, []).append(order)
-        if orders:
-            wanted = {name: Wanted(moving[name][0], of, moving[name][1]) for name, of in orders.items()}
+            orders.setdefault(name, []).append(order)
+        return {name: Wanted(moving[name][0], of, moving[name][1]) for name, of in orders.items()}
+
+    def _search(self, keys: Iterable[tuple[str, int]]) -> None:
+        if wanted := self.wanted(key for key in keys if key not in self._found):
             self._found.update(extremes(self.course, wanted))
 
     def _turns_through(self, meaning: Meaning) -> bool:
@@ -593,7 +584,6 @@ class PlanarMechanism(Design):
     @cached_property
     def layout(self) -> Layout | None:
         """Gears and shafts; None without either."""
-
         return layout(self)
 
     def check_gear_collision(self) -> Iterator[Check]:
@@ -607,10 +597,8 @@ class PlanarMechanism(Design):
         """GL302, of cams against their own shafts as well."""
         if self.layout is not None:
             yield from shaft_checks(self.layout)
-        if self.spec.cams:
-            from gearlink.core.machines.planar.cams import shaft_checks as of_cams
-
-            yield from of_cams(self.structure)
+        for cam in self.structure.cams.values():
+            yield from cam.check_shaft()
 
     def check_shaft_seat(self) -> Iterator[Check]:
         """GL302."""
@@ -618,24 +606,18 @@ class PlanarMechanism(Design):
 
     def check_pressure_angle(self) -> Iterator[Check]:
         """GL401 of every cam."""
-        if self.spec.cams:
-            from gearlink.core.machines.planar.cams import pressure_checks
-
-            yield from pressure_checks(self.structure)
+        for cam in self.structure.cams.values():
+            yield from cam.check_pressure_angle(self.spec.limits.pressure_angle)
 
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402 of every cam."""
-        if self.spec.cams:
-            from gearlink.core.machines.planar.cams import undercuts
-
-            yield from undercuts(self.structure)
+        for cam in self.structure.cams.values():
+            yield from cam.check_undercut()
 
     def check_acceleration_step(self) -> Iterator[Check]:
         """GL404 of every cam."""
-        if self.spec.cams:
-            from gearlink.core.machines.planar.cams import step_checks
-
-            yield from step_checks(self.structure)
+        for cam in self.structure.cams.values():
+            yield cam.check_step()
 
     def ways_of(self, check: str) -> Iterable[Way]:
         """Lengths of the bars, where the transmission angle is poor; shafts where they are in the way."""

@@ -6,8 +6,9 @@ angle is the angle between these two motions, 0 to 90 deg. It vanishes in the dy
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -64,11 +65,10 @@ class Dyad:
             logs.append((i * z[i] - sum(j * logs[j] * z[i - j] for j in range(1, i))) / (i * z[0]))
         return np.asarray(logs[k].imag)
 
-    def transmission(self, jets: Jets) -> Reals:
-        """The transmission angle [rad]."""
-        one, other = self.motions(jets, 0)
-        across, along = (np.conj(one) * other).imag, (np.conj(one) * other).real
-        return np.asarray(np.arctan2(np.abs(across), np.abs(along)))
+
+def folded(angle: Any) -> Any:
+    """The acute angle between two lines."""
+    return np.minimum(np.abs(angle) % math.pi, math.pi - np.abs(angle) % math.pi)
 
 
 def _motion(way: Swing | Along, jets: Jets, k: int) -> Points:

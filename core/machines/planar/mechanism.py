@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from gearlink.core.machines.planar.outputs import moved, point_output, transmission
-from gearlink.core.machines.planar.structure import Driven, GearJoint, LineJoint, PinJoint, RackJoint, Structure
+from gearlink.core.machines.planar.structure import Driven, GearJoint, Line, LineJoint, PinJoint, RackJoint, Structure
 from gearlink.core.mechanism.dual import Shift, elements_at
 from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
@@ -101,17 +101,19 @@ class _Places:
     def pin(self, pin: PinJoint) -> Pin:
         return Pin(pin.name, self.names[pin.first], self.names[pin.second], self._at(pin.first, pin.at_first))
 
+    def _on_line(self, line: Line) -> tuple[str, str, Points]:
+        """Names of the body of a line and of the one that it guides, and the point of that."""
+        return self.names[line.body], self.names[line.other], self._at(line.other, line.point)
+
+    def _along(self, line: Line) -> Points | complex:
+        return self._unit(line.body, line.direction) if line.body else cmath.exp(1j * line.direction)
+
     def guide(self, slide: LineJoint) -> Guide:
-        line = slide.line
-        along = self._unit(line.body, line.direction) if line.body else cmath.exp(1j * line.direction)
-        return Guide(slide.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point), along)
+        return Guide(slide.name, *self._on_line(slide.line), self._along(slide.line))
 
     def slot(self, slot: LineJoint) -> Contact:
         line = slot.line
-        normal = 1j * self._unit(line.body, line.direction)
-        return Contact(
-            slot.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point), normal
-        )
+        return Contact(slot.name, *self._on_line(line), 1j * self._unit(line.body, line.direction))
 
     def cam(self, cam: CamJoint, lift: Lift) -> Contact:
         """The contact of a cam; of a face where it touches."""
@@ -131,19 +133,15 @@ class _Places:
         if driven.slide is None:
             return Coupling(name, shaft, self.names[driven.body], at, driven.ratio)
         line = driven.slide.line
-        along = self._unit(line.body, line.direction)
-        place = self._at(line.other, line.point)
-        return Feed(name, self.names[line.body], self.names[line.other], place, along, shaft, driven.ratio)
+        return Feed(name, *self._on_line(line), self._unit(line.body, line.direction), shaft, driven.ratio)
 
     def _moved(self, driven: Driven) -> str:
         return self.names[driven.body if driven.slide is None else driven.slide.line.other]
 
     def teeth(self, mesh: GearJoint | RackJoint) -> Mesh | Rack:
         if isinstance(mesh, RackJoint):
-            line, side = mesh.line, mesh.side
-            along = self._unit(line.body, line.direction) if line.body else cmath.exp(1j * line.direction)
-            return Rack(mesh.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point),
-                        along, 1j * side * along, mesh.radius, mesh.tangent)  # fmt: skip
+            along, side = self._along(mesh.line), mesh.side
+            return Rack(mesh.name, *self._on_line(mesh.line), along, 1j * side * along, mesh.radius, mesh.tangent)
         one, other = (self._at(mesh.carrier, place) for place in mesh.at)
         (r1, r2), (first, second) = mesh.radii, (mesh.first, mesh.second)
         if mesh.internal and mesh.teeth[1] < 0:  # the ring counts as first

@@ -6,12 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from gearlink.core.base.report import Table
 from gearlink.core.base.rows import row_numbers
+from gearlink.core.machines.planar.dyads import folded
 from gearlink.core.machines.planar.system import Jets, scaled
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 
@@ -25,9 +27,10 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Course
 
 RATES = {
-    "angle": ("speed_ratio", "acceleration_ratio", "jerk_ratio"),
-    "position": ("velocity_ratio", "acceleration_ratio", "jerk_ratio"),
+    "link": ("angle", "speed_ratio", "acceleration_ratio", "jerk_ratio"),
+    "line": ("position", "velocity_ratio", "acceleration_ratio", "jerk_ratio"),
 }
+"""By what moves, names of its value and its derivatives."""
 
 
 @dataclass(frozen=True)
@@ -58,10 +61,8 @@ class Moved:
     @property
     def columns(self) -> tuple[str, str, str, str]:
         """Columns of the value and its derivatives."""
-        if self.sort in ("x", "y"):
-            return (self.name, *(f"{self.name}_{rate}" for rate in RATES["position"]))  # type: ignore[return-value]
-        value = "angle" if self.sort == "link" else "position"
-        return (f"{self.name}_{value}", *(f"{self.name}_{rate}" for rate in RATES[value]))  # type: ignore[return-value]
+        value, *rates = (f"{self.name}_{rate}" for rate in RATES.get(self.sort, RATES["line"]))
+        return (self.name if self.sort in ("x", "y") else value, *rates)  # type: ignore[return-value]
 
     @cached_property
     def _line(self) -> Line:
@@ -191,15 +192,19 @@ def _made(design: PlanarMechanism, name: str, shown: Iterable[Shown], samples: i
     return Table.of(name, columns)
 
 
+def _shown(structure: Structure, outputs: Iterable[tuple[Moved, ...]], orders: int) -> Iterator[Shown]:
+    """Columns of outputs up to an order; of a point both coordinates side by side."""
+    for parts in outputs:
+        columns = (part.shown(structure.names, orders) for part in parts)
+        yield from chain.from_iterable(zip(*columns, strict=True))
+
+
 def motion(design: PlanarMechanism, samples: int | None = None) -> Table:
     """Every output with speed and acceleration, and the minimum transmission angle."""
     from gearlink.core.mechanism.courses import Shown
 
-    structure, shown = design.structure, []
-    for name in design.spec.shown:
-        parts = moved(structure, name)
-        columns = [[*part.shown(structure.names, 2)] for part in parts]
-        shown += [each for orders in zip(*columns, strict=True) for each in orders]
+    structure = design.structure
+    shown = [*_shown(structure, (moved(structure, name) for name in design.spec.shown), 2)]
     if design.course.dyads:
         shown.append(Shown("transmission_angle", transmission(structure, design.course.dyads)))
     return _made(design, "motion", shown, samples)
@@ -207,34 +212,24 @@ def motion(design: PlanarMechanism, samples: int | None = None) -> Table:
 
 def links(design: PlanarMechanism, samples: int | None = None) -> Table:
     """Angle, speed, acceleration and jerk of every link."""
-
-    names = design.structure.names
-    shown = (each for name in names[1:] for each in link_output(design.structure, name).shown(names, 3))
-    return _made(design, "links", shown, samples)
+    structure = design.structure
+    outputs = ((link_output(structure, name),) for name in structure.names[1:])
+    return _made(design, "links", _shown(structure, outputs, 3), samples)
 
 
 def points(design: PlanarMechanism, samples: int | None = None) -> Table:
     """Position, velocity, acceleration and jerk of every point of a moving link."""
-
     structure = design.structure
     moving = dict.fromkeys(point for body, points in structure.bodies.items() if body != "frame" for point in points)
-    shown: list[Shown] = []
-    for point in moving:
-        columns = [[*part.shown(structure.names, 3)] for part in point_output(structure, point)]
-        shown += [each for orders in zip(*columns, strict=True) for each in orders]
-    return _made(design, "points", shown, samples)
+    outputs = (point_output(structure, point) for point in moving)
+    return _made(design, "points", _shown(structure, outputs, 3), samples)
 
 
 def slides(design: PlanarMechanism, samples: int | None = None) -> Table:
     """Position, velocity, acceleration and jerk of every slide and slot."""
-
     structure = design.structure
-    shown = (
-        each
-        for name in (*structure.slides, *structure.slots)
-        for each in line_output(structure, name).shown(structure.names, 3)
-    )
-    return _made(design, "slides", shown, samples)
+    outputs = ((line_output(structure, name),) for name in (*structure.slides, *structure.slots))
+    return _made(design, "slides", _shown(structure, outputs, 3), samples)
 
 
 def cams(design: PlanarMechanism, samples: int | None = None) -> Table:
@@ -280,12 +275,11 @@ def _in_rad(design: PlanarMechanism, rows: Any) -> Reals:
 
 def transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
     """The minimum transmission angle of all dyads."""
-
     from gearlink.core.mechanism.motion import Course
 
     def of(links: Mechanism) -> Sequence[Reals]:
         jets = jets_of(links, structure.names, structure.size)
-        return [np.min([dyad.transmission(jets) for dyad in dyads], axis=0)]
+        return [np.min([folded(dyad.angle(jets, 0)) for dyad in dyads], axis=0)]
 
     return Course("rad", of)
 

@@ -22,8 +22,8 @@ from gearlink.core.base.report import Check
 from gearlink.core.base.results import keep
 from gearlink.core.base.spec_paths import value_at
 from gearlink.core.machines.planar.course import AsMade, Course, Start
-from gearlink.core.machines.planar.design import PlanarMechanism, folded
-from gearlink.core.machines.planar.dyads import Dyad, dyads
+from gearlink.core.machines.planar.design import PlanarMechanism
+from gearlink.core.machines.planar.dyads import dyads, folded
 from gearlink.core.machines.planar.extremes import Coefficient, Wanted, humps
 from gearlink.core.machines.planar.gaps import (
     Axis,
@@ -38,12 +38,10 @@ from gearlink.core.machines.planar.structure import GearJoint, Line, RackJoint, 
 from gearlink.core.machines.planar.system import (
     Jets,
     System,
-    at_rest,
     drive_rows,
     joined,
     joint_rows,
-    mesh_row,
-    pins_of,
+    meshes_at_rest,
     split,
 )
 from gearlink.core.numerics.arrays import Mask, Points, Reals
@@ -277,15 +275,10 @@ class PlanarSamples:
         """By number and order of its derivative, the extremes that count; what stands still is left out."""
         design, course = self.nominal, self.nominal.course
         keys = dict.fromkeys(key for name in design.own_names if self._served(name) for key in design.needed(name))
-        keys |= dict.fromkeys(design.dyad_keys)
-        orders: dict[str, list[int]] = {}
-        for name, order in keys:
-            orders.setdefault(name, []).append(order)
-        moving = design.moving_numbers | self._distances
-        orders |= {name: [0] for name in self._distances}
+        wanted = design.wanted([*keys, *design.dyad_keys])
+        wanted |= {name: Wanted(of, [0], unit) for name, (of, unit) in self._distances.items()}
         if design.spec.cams:
-            return self._beside_joints({name: moving[name] for name in orders}, orders)
-        wanted = {name: Wanted(moving[name][0], of, moving[name][1]) for name, of in orders.items()}
+            return self._beside_joints(wanted)
         found = {}
         for key, places in humps(course, wanted, _NEAR).items():
             ends = [] if course.turns is not None else [course.start, course.end]
@@ -316,21 +309,20 @@ class PlanarSamples:
             return nominal.course.system
         return AsMade(nominal.structure, nominal.course.at_start, {}).running
 
-    def _beside_joints(
-        self, moving: Mapping[str, tuple[Coefficient, str]], orders: Mapping[str, list[int]]
-    ) -> dict[tuple[str, int], list[_Hump]]:
+    def _beside_joints(self, wanted: Mapping[str, Wanted]) -> dict[tuple[str, int], list[_Hump]]:
         """The same of a mechanism with cams: what is largest where a law changes, and where the next derivative is 0
         between these places."""
-        course, joints, highest = self.nominal.course, self._joints, max(max(each) for each in orders.values()) + 1
+        course, joints = self.nominal.course, self._joints
+        highest = max(max(each.orders) for each in wanted.values()) + 1
         beside = np.array([joint.place for joint in joints])[:, None] + _BESIDE * np.array([-1.0, 1.0])
         q = np.unique(np.concatenate([course.grid, beside[(beside > course.start) & (beside < course.end)]]))
         jets = course.jets(q, 0)
         walked = course.walked(q)
         after, before = (self.system.onward(Jets(jets.x, jets.t, side=side), walked, highest) for side in (1, -1))
         found = {}
-        for name, (of, unit) in moving.items():
-            right, left = (course.derivatives(of, each, max(orders[name]) + 1) for each in (after, before))
-            for order in orders[name]:
+        for name, (of, orders, unit) in wanted.items():
+            right, left = (course.derivatives(of, each, max(orders) + 1) for each in (after, before))
+            for order in orders:
                 value = np.concatenate([right[order], left[order]])
                 span = float(np.ptp(value))
                 if span > 1e-11 * max(float(np.abs(value).max()), course.floor(unit, order)):
@@ -404,10 +396,8 @@ class PlanarSamples:
         else:
             rows = [*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts)]
             if structure.meshes:
-                closed = self._closed_at_start(structure)
-                rows += [at_rest(mesh_row(mesh, structure.size), len(structure.bodies), closed)
-                         for mesh in structure.meshes.values()]  # fmt: skip
-            system = System(len(structure.bodies), pins_of(structure), tuple(rows))
+                rows += meshes_at_rest(structure, self._closed_at_start(structure))
+            system = System.of(structure, rows)
         keep(system, blocks=self.system.blocks)
         return structure, system
 
@@ -415,7 +405,7 @@ class PlanarSamples:
         """The equations at input 0, with exact start values instead of meshes."""
         start = self.nominal.course.at_start
         rows = [*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts)]
-        system = System(len(structure.bodies), pins_of(structure), (*rows, *Start(structure).mesh_rows()))
+        system = System.of(structure, [*rows, *Start(structure).mesh_rows()])
         keep(system, blocks=start.system.blocks)
         return system
 
@@ -539,11 +529,9 @@ class PlanarSamples:
         """Findings of the cams as cut, which no sample changes."""
         if not self.nominal.spec.cams:
             return []
-        from gearlink.core.machines.planar.cams import shaft_checks
-
         names = ("pressure-angle", "cam-undercut", "acceleration-step")
         found = [check for name in names for check in self.nominal.check(name)]
-        return [*shaft_checks(self.nominal.structure), *found]
+        return [*(check for cam in self.nominal.structure.cams.values() for check in cam.check_shaft()), *found]
 
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
         """By how much the first output, a link or a slide, is off that of the nominal design [rad or mm]; (K, N), NaN
@@ -558,7 +546,7 @@ class PlanarSamples:
             off = np.empty((q.size, many.count))
             for k in range(q.size):
                 found, open_ones = many.closed(q[k], np.tile(y[k], (many.count, 1)))
-                value = many.number(name)(Jets.of(found), 0)
+                value = many.numbers[name](Jets.of(found), 0)
                 off[k] = np.where(many.unsure | open_ones, math.nan, value - nominal[k])
             rows.append(off)
         return np.concatenate(rows, axis=1)
@@ -740,7 +728,9 @@ class _Many:
         self.samples, self.count = samples, len(next(iter(columns.values())))
         self.design = PlanarMechanism(samples.nominal.spec)
         structure, self.system = samples.made(columns)
-        keep(self.design, structure=structure)
+        course = Course(structure)
+        keep(course, dyads=dyads(structure, samples.nominal.course.system))
+        keep(self.design, structure=structure, course=course)
         self.unsure: Mask = self._uncertain()
         for stages in _STAGES:
             if len(some := np.flatnonzero(self.unsure)):
@@ -766,19 +756,10 @@ class _Many:
         return np.asarray(np.abs(self.system.values(Jets.of(y), 0, q)).max(axis=1) * self.design.structure.size)
 
     @cached_property
-    def _numbers(self) -> dict[str, Coefficient]:
-        found = {each.output.name: each.output.coefficient for each in self.design.meanings.values()}
-        structure = self.design.structure
-        found |= {name: squared_distance(structure, *axes) for name, axes in self.samples._axes.items()}
-        return found | {f"dyad {i}": dyad.angle for i, dyad in enumerate(self._dyads)}
-
-    def number(self, name: str) -> Coefficient:
-        """Taylor coefficients of what moves."""
-        return self._numbers[name]
-
-    @cached_property
-    def _dyads(self) -> list[Dyad]:
-        return dyads(self.design.structure, self.samples.nominal.course.system)
+    def numbers(self) -> dict[str, Coefficient]:
+        """Taylor coefficients of what moves, by name."""
+        found, structure = {name: of for name, (of, _) in self.design.moving_numbers.items()}, self.design.structure
+        return found | {name: squared_distance(structure, *axes) for name, axes in self.samples._axes.items()}
 
     @cached_property
     def _found(self) -> dict[tuple[str, int, _Hump], tuple[Reals, Reals]]:
@@ -822,7 +803,7 @@ class _Many:
         if hump.cam:
             return _ToJoint(self._cam_rows[hump.cam], hump.joint)
         (name, order), kind = key, _BySecants if self.samples.nominal.spec.cams else _BySlope
-        return kind(lambda here, k: self._numbers[name](here, k) * math.factorial(k), order + kind.above, hump.sign)
+        return kind(lambda here, k: self.numbers[name](here, k) * math.factorial(k), order + kind.above, hump.sign)
 
     def _first(self, hump: _Hump) -> tuple[Reals, Reals]:
         """The place of the nominal design as the equations have it, and its unknowns, for each sample."""
@@ -839,7 +820,7 @@ class _Many:
         here = self.system.onward(Jets([x], [t], side=side), q, order)
         self.gap = np.maximum(self.gap, self._gaps(y, q))
         self.unsure = self.unsure | off | open_ones
-        return course.derivatives(self._numbers[name], here, order)[order], course.unwalked(q)
+        return course.derivatives(self.numbers[name], here, order)[order], course.unwalked(q)
 
     @cached_property
     def _cam_rows(self) -> dict[str, Any]:
@@ -914,7 +895,7 @@ class _Many:
             for _ in range(_ROUNDS):
                 y = y - self.system.values(Jets.of(y), 0, inputs) @ there.inverse.T
             jets = Jets.of(y)
-            found.add(np.array([self._numbers[name](jets, 0) for name in names]))
+            found.add(np.array([self.numbers[name](jets, 0) for name in names]))
         return names, found
 
     def _little_moved(self, name: str, sign: float) -> Reals:
@@ -939,7 +920,7 @@ class _Many:
             assert jets is not None
             near = joined(jets.x[0][k : k + 1], jets.t[0][k : k + 1])
             y, open_ones = self.closed(float(course.walked(q)[k]), np.tile(near, (self.count, 1)))
-            angles = [folded(self._numbers[name](Jets.of(y), 0)) for name, _ in still]
+            angles = [folded(self.numbers[name](Jets.of(y), 0)) for name, _ in still]
             least = np.where(open_ones, math.nan, np.minimum(least, np.min(angles, axis=0)))
         return least
 

@@ -7,7 +7,7 @@ Lengths are in units of `size`, so that directions and places weigh alike.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -116,6 +116,18 @@ class _Lines(NamedTuple):
     unit: Points
     columns: NDArray[np.intp]
 
+    @classmethod
+    def of(cls, on: Sequence[tuple[int, Row, Line]]) -> _Lines:
+        """Of rows by number, each with its line."""
+        numbers, rows, lines = zip(*on, strict=True)
+        a, b = np.array([line.body for line in lines]), np.array([line.other for line in lines])
+        turned = np.exp(-1j * _side_by_side([line.direction for line in lines], np.float64))
+        through = _side_by_side([line.through for line in lines], np.complex128)
+        point = _side_by_side([line.point for line in lines], np.complex128)
+        unit = np.array([-1j * row.factor if row.across else row.factor + 0j for row in rows])
+        columns = np.stack([3 * b, 3 * b + 1, 3 * b + 2, 3 * a, 3 * a + 1, 3 * a + 2], axis=1)
+        return cls(np.array(numbers), a, b, turned, through, point, unit, columns)
+
     def apart(self, jets: Jets, k: int) -> Points:
         """Coefficient of the points from the origins of the lines' bodies."""
         return np.asarray(jets.x[k][:, self.b] + self.point * jets.e[k][:, self.b] - jets.x[k][:, self.a])
@@ -156,6 +168,16 @@ class System:
     rows: tuple[Row, ...]
     whole: bool = False
 
+    @classmethod
+    def of(cls, structure: Structure, rows: Iterable[Row]) -> System:
+        """Of the pins of a structure, and rows."""
+        size = structure.size
+        pins = (
+            (each.first, each.second, each.at_first / size, each.at_second / size, each.play / size)
+            for each in structure.pins
+        )
+        return cls(len(structure.bodies), tuple(pins), tuple(rows))
+
     @property
     def count(self) -> int:
         """How many equations."""
@@ -192,19 +214,7 @@ class System:
     def _lines(self) -> _Lines | None:
         """The rows that see a point from a line; None without any."""
         on = [(i, row, row.line) for i, row in enumerate(self.rows) if row.line is not None]
-        if not on:
-            return None
-        index, a, b = (
-            np.array([each[k] for each in ((i, line.body, line.other) for i, _, line in on)]) for k in range(3)
-        )
-        turned = np.exp(-1j * _side_by_side([line.direction for *_, line in on], np.float64))
-        through, point = (
-            _side_by_side(each, np.complex128)
-            for each in zip(*((line.through, line.point) for *_, line in on), strict=True)
-        )
-        unit = np.array([-1j * row.factor if row.across else row.factor + 0j for _, row, _ in on])
-        columns = np.stack([3 * b, 3 * b + 1, 3 * b + 2, 3 * a, 3 * a + 1, 3 * a + 2], axis=1)
-        return _Lines(index, a, b, turned, through, point, unit, columns)
+        return _Lines.of(on) if on else None
 
     def values(self, jets: Jets, k: int, q: Reals) -> Reals:
         """Coefficient k of all equations along a motion; (N, count).
@@ -279,19 +289,9 @@ class System:
                 for body, share in row.lift.turns.items():
                     found[:, pins + i, 3 * body + 2] -= share * slope
             if row.contact is not None:
-                self._add_line(found[:, pins + i], row, row.contact.across(jets), jets)
+                line = _Lines.of([(i, row, row.contact.across(jets))])
+                found[:, pins + i, line.columns[0]] += line.slopes(jets)[:, 0]
         return found[:, :, 3:]
-
-    @staticmethod
-    def _add_line(found: Reals, row: Row, line: Line, jets: Jets) -> None:
-        a, b, c = line.body, line.other, np.exp(-1j * line.direction) * np.conj(jets.e[0][:, line.body])
-        apart = jets.point(b, line.point, 0) - jets.x[0][:, a]
-        parts = (
-            (3 * b, c), (3 * b + 1, 1j * c), (3 * b + 2, 1j * c * line.point * jets.e[0][:, b]),
-            (3 * a, -c), (3 * a + 1, -1j * c), (3 * a + 2, -1j * c * apart),
-        )  # fmt: skip
-        for column, part in parts:
-            found[:, column] += row.factor * (part.imag if row.across else part.real)
 
     @cached_property
     def pattern(self) -> NDArray[np.bool_]:
@@ -500,19 +500,16 @@ def _weights(*shares: tuple[int, float]) -> dict[int, float]:
     return {body: share for body, share in found.items() if np.any(share)}
 
 
-def pins_of(structure: Structure) -> tuple[tuple[int, int, complex, complex, complex], ...]:
-    """The pins in units of size."""
-    size = structure.size
-    return tuple(
-        (each.first, each.second, each.at_first / size, each.at_second / size, each.play / size)
-        for each in structure.pins
-    )
-
-
 def at_rest(row: Row, bodies: int, jets: Jets) -> Row:
     """A row whose constant is such that it holds at places; of N places N constants."""
     value = System(bodies, (), (row,)).values(jets, 0, np.zeros(len(jets.t[0])))[:, 0]
     return row._replace(constant=float(value[0]) if value.size == 1 else value)
+
+
+def meshes_at_rest(structure: Structure, jets: Jets) -> list[Row]:
+    """The rows of the meshes, such that they hold at places."""
+    bodies, size = len(structure.bodies), structure.size
+    return [at_rest(mesh_row(mesh, size), bodies, jets) for mesh in structure.meshes.values()]
 
 
 def drive_rows(structure: Structure, starts: Mapping[str, float]) -> list[Row]:
