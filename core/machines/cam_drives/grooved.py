@@ -210,6 +210,11 @@ _OUTPUT = (
     "speed_ratio_max", "speed_ratio_min", "acceleration_ratio_max", "input_speed", "turn_time", "output_speed_max",
     "output_speed_min", "output_acceleration_max",
 )  # fmt: skip
+_STEEPEST = ("max_pressure_angle", "<limits.pressure_angle")
+_KEYS = (
+    "min_curvature_radius", "max_radius", "min_radius", "output_speed_max", "output_acceleration_max",
+    "speed_ratio_max", "speed_ratio_min", "acceleration_ratio_max",
+)  # fmt: skip
 _CHECKS = ("pressure-angle", "cam-undercut")
 _TEETH = (
     "undercut", "tip-thickness", "contact-ratio", "involute-interference", "root-clearance", "tooth-form", "sliding",
@@ -274,7 +279,6 @@ class Grooved(RealSpeed, Design):
         Raises
             NoSolution - where the drive does not close over the turn
         """
-
         self.require_closed()
         return Groove(self.path, self.spec.roller_radius, self.output_motion.joints)
 
@@ -285,7 +289,6 @@ class Grooved(RealSpeed, Design):
 
     @cached_property
     def _rates(self) -> list[Extreme]:
-
         motion = self.output_motion
 
         def speed(theta: Reals) -> Reals:
@@ -295,7 +298,13 @@ class Grooved(RealSpeed, Design):
             return abs(motion.evaluate(theta, 2)[2])
 
         wanted = [(speed, True), (speed, False), (acceleration, True)]
-        return extremes_over(wanted, joints=motion.joints, samples=1024)
+        return extremes_over(wanted, joints=motion.joints, samples=_SAMPLES)
+
+    def ends(self, course: Callable[[Reals], Reals]) -> tuple[Extreme, Extreme]:
+        """Maximum and minimum of a function of the input angle."""
+        wanted = [(course, True), (course, False)]
+        high, low = extremes_over(wanted, joints=self.output_motion.joints, samples=_SAMPLES)
+        return high, low
 
     speed_ratio_max: float = placed("_rates.0.value")
     speed_ratio_min: float = placed("_rates.1.value")
@@ -310,7 +319,6 @@ class Grooved(RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The output over a revolution of the input."""
-
         self.require_closed()
         shown = of_output(self.moving.outputs[0].course)
         beside = self.motion_columns(np.radians(turn_degrees(samples)))
@@ -341,20 +349,7 @@ class CamGear(Grooved):
 
     kind = "cam-gear"
     spec: CamGearSpec
-    keys = {
-        "analyze": (
-            "lever_swing",
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            "min_curvature_radius",
-            "max_radius",
-            "min_radius",
-            "output_speed_max",
-            "output_acceleration_max",
-            "speed_ratio_max",
-            "speed_ratio_min",
-            "acceleration_ratio_max",
-        )
-    }
+    keys = {"analyze": ("lever_swing", _STEEPEST, *_KEYS)}
     outlines = {
         "analyze": Outline(
             ("lever_swing", *_GROOVE, *_OUTPUT, "carrier_length", "contact_ratio"), (*_CHECKS, *_TEETH),
@@ -401,12 +396,7 @@ class CamGear(Grooved):
 
     @cached_property
     def _swing(self) -> tuple[Extreme, Extreme]:
-
-        def place(theta: Reals) -> Reals:
-            return self.lever(theta, 0)[0]
-
-        top, low = extremes_over([(place, True), (place, False)], joints=self.output_motion.joints, samples=1024)
-        return top, low
+        return self.ends(lambda theta: self.lever(theta, 0)[0])
 
     @property
     def lever_swing(self) -> float:
@@ -429,7 +419,6 @@ class CamGear(Grooved):
 
     def path(self, theta: Reals) -> Path:
         """P, P', P'' and u = d P/d X."""
-
         x, first, second = self.lever(theta, 2)
         turn, arm, length = units(theta), self.spec.lever.length * units(x), self.carrier_length
         spin = 1.0 + first
@@ -442,7 +431,6 @@ class CamGear(Grooved):
 
     def motion_columns(self, theta: Reals) -> dict[str, tuple[Any, str]]:
         """Angle of the lever."""
-
         return {"lever_angle": (np.degrees(self.lever(theta, 0)[0]), "deg")}
 
     def check(self, name: str) -> list[Check]:
@@ -464,20 +452,7 @@ class CamLinkage(Grooved):
 
     kind = "cam-linkage"
     spec: CamLinkageSpec
-    keys = {
-        "analyze": (
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "min_curvature_radius",
-            "max_radius",
-            "min_radius",
-            "output_speed_max",
-            "output_acceleration_max",
-            "speed_ratio_max",
-            "speed_ratio_min",
-            "acceleration_ratio_max",
-        )
-    }
+    keys = {"analyze": (_STEEPEST, ("min_transmission_angle", ">limits.transmission_angle"), *_KEYS)}
     outlines = {
         "analyze": Outline(
             (*_GROOVE, "min_transmission_angle", *_OUTPUT), (*_CHECKS, "transmission-angle"), ("motion", "main_cam")
@@ -495,15 +470,13 @@ class CamLinkage(Grooved):
     @cached_property
     def _span(self) -> tuple[Extreme, Extreme]:
         """Maximum and minimum distance of B and D."""
-
         links, phase = self.spec.links, self.spec.phase * _DEGREE
 
         def apart(theta: Reals) -> Reals:
             d = links.frame + links.output * units(phase + self.output_motion.evaluate(theta, 0)[0])
             return np.abs(d - links.input * units(theta))
 
-        far, near = extremes_over([(apart, True), (apart, False)], joints=self.output_motion.joints, samples=1024)
-        return far, near
+        return self.ends(apart)
 
     def require_closed(self) -> None:
         """Coupler and follower must reach from B to D over the whole revolution."""
@@ -522,14 +495,12 @@ class CamLinkage(Grooved):
 
     def path(self, theta: Reals) -> Path:
         """C and its derivatives; u is across BC."""
-
         links = five_bar(self, theta, 2, 1)
         place = links["coupler"].at("C")
         return Path(place.value, place.first, place.second, np.asarray(1j * links["coupler"].unit))
 
     def _lean(self, theta: Reals) -> Reals:
         """Signed angle between the lines of follower and output [rad]."""
-
         links = five_bar(self, theta, 0, 1)
         apart = np.conj(links["follower"].unit) * links["output"].unit
         return np.asarray(np.arctan2(apart.imag, np.abs(apart.real)))
@@ -537,15 +508,11 @@ class CamLinkage(Grooved):
     @cached_property
     def _leans(self) -> tuple[Extreme, Extreme]:
         """Its maximum and minimum."""
-
-        wanted = [(self._lean, True), (self._lean, False)]
-        high, low = extremes_over(wanted, joints=self.output_motion.joints, samples=1024)
-        return high, low
+        return self.ends(self._lean)
 
     @cached_property
     def _flattest(self) -> Extreme:
         """That angle where it is nearest to 0; 0 where both are in line."""
-
         from gearlink.core.numerics.roots import bracketed_root
 
         self.require_closed()
@@ -609,8 +576,7 @@ def cam_gear(design: CamGear) -> Motion:
         ]
         return Mechanism(links, joints, "carrier")
 
-    joints = _inner(design.output_motion.joints)
-    return Motion(make, Input(joints=joints), (Output("Sun", turned("sun")),))
+    return Motion(make, Input(joints=_inner(design.output_motion.joints)), (Output("Sun", turned("sun")),))
 
 
 def cam_gear_errors(design: CamGear, mechanism: Mechanism) -> Movable:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Outline
-from gearlink.core.base.real_speed import RealSpeed
+from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property, keep
@@ -149,15 +149,10 @@ class LinkedCams(RealSpeed, Design):
         found = extremes_over([(speed, True), (speed, False)], joints=self.joints, samples=1024)
         return [each.value for each in found]
 
-    @property
-    def path_speed_max(self) -> float | None:
-        """Maximum speed along the path [mm/s]."""
-        return None if self.angular_speed is None else self._speeds[0] * self.angular_speed
-
-    @property
-    def path_speed_min(self) -> float | None:
-        """Minimum speed along the path [mm/s]."""
-        return None if self.angular_speed is None else self._speeds[1] * self.angular_speed
+    _fastest: float = placed("_speeds.0")
+    _slowest: float = placed("_speeds.1")
+    path_speed_max: float | None = per_time("_fastest", 1)
+    path_speed_min: float | None = per_time("_slowest", 1)
 
     # The cams
 
