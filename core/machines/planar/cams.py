@@ -282,6 +282,12 @@ class CamJoint:
         self._pivot = None if slid else next((bodies[bearer][pin], bodies[each.follower][pin]) for pin in shared)
         self.sense, self.phase = each.sense, math.radians(each.phase)
 
+    @property
+    def _turns_about(self) -> complex:
+        """Pivot of a follower that turns, about the cam's axis in coordinates of the carrier [mm]."""
+        assert self._pivot is not None
+        return self._pivot[0] - self.axis
+
     @cached_property
     def motion(self) -> FollowerMotion:
         """The lift [mm or rad].
@@ -321,8 +327,7 @@ class CamJoint:
         if self.slide is not None:
             u = cmath.exp(1j * self.slide.line.direction)
             return [np.asarray(self._start + u * a[0]), *(np.asarray(u * each) for each in a[1:])]
-        assert self._pivot is not None
-        pivot = self._pivot[0] - self.axis
+        pivot = self._turns_about
         return [np.asarray(pivot + (self._start - pivot) * np.exp(1j * a[0])), *_turned(self._start - pivot, a)]
 
     def pitch(self, phi: Reals, order: int, side: int = 1) -> list[Points]:
@@ -353,8 +358,7 @@ class CamJoint:
         """Unit vector from the cam into the face at lift 0, in coordinates of the carrier."""
         if self.slide is not None:
             return self.away * cmath.exp(1j * self.slide.line.direction)
-        assert self._pivot is not None
-        return 1j * self.away * self._face(self._pivot[0] - self.axis)[0]
+        return 1j * self.away * self._face(self._turns_about)[0]
 
     @cached_property
     def support(self) -> Support:
@@ -371,8 +375,7 @@ class CamJoint:
                 base = (normal.conjugate() * self._start).real
                 way = [start - self.sense * phi, still - self.sense, still, still]
                 return way[: order + 1], [base + self.away * a[0], *(self.away * each for each in a[1:])]
-            assert self._pivot is not None
-            pivot = self._pivot[0] - self.axis
+            pivot = self._turns_about
             w, offset = normal.conjugate() * pivot, (normal.conjugate() * (self._start - pivot)).real
             back = [-each for each in a]
             h = [offset + (w * np.exp(1j * back[0])).real, *(each.real for each in _turned(w, back))]
@@ -423,8 +426,7 @@ class CamJoint:
         if self.slide is not None:
             reach, size = (self._start * cmath.exp(-1j * self.slide.line.direction)).real, abs(self._start)
         else:
-            assert self._pivot is not None
-            pivot = self._pivot[0] - self.axis
+            pivot = self._turns_about
             toward = self._start if self.given.face is None else self._face(pivot)[0]
             reach, size = -(pivot.conjugate() * toward).imag, abs(pivot) * abs(toward)
         if abs(reach) <= _SQUARE * size:
@@ -460,8 +462,7 @@ class CamJoint:
         if self.slide is not None:
             way = np.full(phi.shape, self.away * cmath.exp(1j * self.slide.line.direction))
         else:
-            assert self._pivot is not None
-            arm = place - (self._pivot[0] - self.axis)
+            arm = place - self._turns_about
             way = 1j * arm / np.abs(arm)
         return RollerPath(place, rates[0], rates[1] if order > 1 else np.zeros_like(place), way)
 
@@ -477,8 +478,7 @@ class CamJoint:
                 raise NoSolution(what, key=f"{self.key}.face", fix=f"set {self.key}.face to {math.degrees(square):.6g}")
             base = (u.conjugate() * self._start).real
             return sliding_face(self.motion, base, u, self.sense)
-        assert self._pivot is not None
-        pivot = self._pivot[0] - self.axis
+        pivot = self._turns_about
         along, angle = self._face(pivot)
         side = -int(self.away)
         normal = -1j * side * along

@@ -9,14 +9,14 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.dyads import Dyad, dyads, mirrored
-from gearlink.core.machines.planar.structure import Line, RackJoint, Structure
+from gearlink.core.machines.planar.structure import Line, LineJoint, RackJoint, Structure
 from gearlink.core.machines.planar.system import (
     Jets,
     Row,
@@ -366,6 +366,8 @@ _START_ROUNDS = 200
 _CLOSED = 1e-11
 _TRIES = 24
 _SHARE = 1e-6  # of a null vector: joints with less have no part in it
+_Meeting: TypeAlias = tuple[tuple[int, complex], tuple[int, complex]]
+"""Points of two bodies, by number and place on it, that are one."""
 
 
 def wrapped(angle: float) -> float:
@@ -553,49 +555,28 @@ class Start:
     def _placed(self, t: Reals) -> Points:
         """Origins [size] from directions, each by the first joint that leads to a body which is placed."""
         structure, size = self.structure, self.structure.size
-        x = np.zeros(t.size, dtype=np.complex128)
-        e = np.exp(1j * t)
-        placed = {0}
+        x, e, placed = np.zeros(t.size, dtype=np.complex128), np.exp(1j * t), {0}
 
-        def place(body: int, point: complex, where: complex) -> None:
-            x[body] = where - point * e[body]
-            placed.add(body)
-
-        def by_slide(name: str) -> bool:
-            line = scaled(structure.slides[name].line, size)
-            if (line.body in placed) == (line.other in placed):
-                return False
-            along = (structure.start_of(name) or 0.0) / size * cmath.exp(1j * line.direction)
-            if line.body in placed:
-                place(line.other, line.point, x[line.body] + (line.through + along) * e[line.body])
-            else:
-                place(line.body, line.through + along, x[line.other] + line.point * e[line.other])
-            return True
-
-        def by_pin() -> bool:
-            for pin in structure.pins:
-                ends = (pin.first, pin.at_first / size), (pin.second, pin.at_second / size)
+        def placed_by(joints: Iterable[_Meeting]) -> bool:
+            """Place a body at the first of these joints whose other body is placed."""
+            for ends in joints:
                 for (one, there), (other, here) in (ends, ends[::-1]):
                     if one in placed and other not in placed:
-                        place(other, here, x[one] + there * e[one])
+                        x[other] = x[one] + there * e[one] - here * e[other]
+                        placed.add(other)
                         return True
             return False
 
-        given = [name for name in structure.slides if name in structure.spec.start]
-        rest = [name for name in structure.slides if name not in given]
-        slots = [scaled(slot.line, size) for slot in structure.slots.values()]
+        def on_line(joint: LineJoint, along: float = 0.0) -> _Meeting:
+            line = scaled(joint.line, size)
+            there = line.through + along / size * cmath.exp(1j * line.direction)
+            return (line.body, there), (line.other, line.point)
 
-        def by_slot() -> bool:
-            for line in slots:
-                if line.body in placed and line.other not in placed:
-                    place(line.other, line.point, x[line.body] + line.through * e[line.body])
-                    return True
-                if line.other in placed and line.body not in placed:
-                    place(line.body, line.through, x[line.other] + line.point * e[line.other])
-                    return True
-            return False
-
-        while any(map(by_slide, given)) or by_pin() or any(map(by_slide, rest)) or by_slot():
+        slides = {name: on_line(slide, structure.start_of(name) or 0.0) for name, slide in structure.slides.items()}
+        pins = [((pin.first, pin.at_first / size), (pin.second, pin.at_second / size)) for pin in structure.pins]
+        given = [ends for name, ends in slides.items() if name in structure.spec.start]
+        rest = [ends for name, ends in slides.items() if name not in structure.spec.start]
+        while any(map(placed_by, (given, pins, rest, map(on_line, structure.slots.values())))):
             pass
         return x
 

@@ -66,21 +66,28 @@ def extremes(course: Course, wanted: Mapping[str, Wanted]) -> dict[tuple[str, in
     highest = max((max(each.orders) for each in wanted.values()), default=0)
     if course.structure.spec.cams:
         return _sought(course, wanted, highest)
-    grid = course.grid
-    jets = course.jets(grid, highest + 1)
-    rows = {name: course.derivatives(each.of, jets, max(each.orders) + 1) for name, each in wanted.items()}
-    keys = [(name, order) for name, each in wanted.items() for order in each.orders]
-    noise = {
-        (name, order): _NOISE * max(_size(rows[name], order), course.floor(wanted[name].unit, order))
-        for name, order in keys
-    }
-    brackets = [each for key in keys for each in _brackets(*key, grid, rows[key[0]], noise[key])]
+    rows, noise = _on_grid(course, wanted, highest)
+    brackets = [each for key in noise for each in _brackets(*key, course.grid, rows[key[0]], noise[key])]
     places, values = _refined(course, {name: each.of for name, each in wanted.items()}, brackets, highest)
     found = {}
-    for key in keys:
+    for key in noise:
         mine = [i for i, each in enumerate(brackets) if (each.course, each.order) == key]
-        found[key] = _pair(course, grid, rows[key[0]], key[1], noise[key], places[mine], values[mine])
+        found[key] = _pair(course, course.grid, rows[key[0]], key[1], noise[key], places[mine], values[mine])
     return found
+
+
+def _on_grid(
+    course: Course, wanted: Mapping[str, Wanted], highest: int
+) -> tuple[dict[str, list[Reals]], dict[tuple[str, int], float]]:
+    """Courses on the grid with one derivative more, and by (name, order) the range below which one stands still."""
+    jets = course.jets(course.grid, highest + 1)
+    rows = {name: course.derivatives(each.of, jets, max(each.orders) + 1) for name, each in wanted.items()}
+    noise = {
+        (name, order): _NOISE * max(_size(rows[name], order), course.floor(each.unit, order))
+        for name, each in wanted.items()
+        for order in each.orders
+    }
+    return rows, noise
 
 
 def _sought(course: Course, wanted: Mapping[str, Wanted], highest: int) -> dict[tuple[str, int], Pair]:
@@ -116,16 +123,10 @@ def humps(
         found : (name, order) -> places; what stands still is left out
     """
     highest = max((max(each.orders) for each in wanted.values()), default=0)
-    grid = course.grid
-    jets = course.jets(grid, highest + 1)
-    brackets, found = [], {}
-    for name, each in wanted.items():
-        rows = course.derivatives(each.of, jets, max(each.orders) + 1)
-        for order in each.orders:
-            noise = _NOISE * max(_size(rows, order), course.floor(each.unit, order))
-            if float(np.ptp(rows[order])) > noise:
-                found[name, order] = list[tuple[float, float]]()
-            brackets += _brackets(name, order, grid, rows, noise, share)
+    rows, noise = _on_grid(course, wanted, highest)
+    moving = {key: least for key, least in noise.items() if float(np.ptp(rows[key[0]][key[1]])) > least}
+    brackets = [each for key in moving for each in _brackets(*key, course.grid, rows[key[0]], noise[key], share)]
+    found: dict[tuple[str, int], list[tuple[float, float]]] = {key: [] for key in moving}
     places, _ = _refined(course, {name: each.of for name, each in wanted.items()}, brackets, highest)
     for each_one, place in zip(brackets, places.tolist(), strict=True):
         found[each_one.course, each_one.order].append((place, each_one.sign))

@@ -18,7 +18,7 @@ from gearlink.core.machines.planar.wiring import FRAME, bearer_of, carrier_of, t
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.cams import CamJoint
-    from gearlink.core.machines.planar.spec import PlanarSpec, Teeth
+    from gearlink.core.machines.planar.spec import PlanarSpec, Slide, Slot, Teeth
 
 
 class PinJoint(NamedTuple):
@@ -190,11 +190,15 @@ class Structure:
         for name, each in self.spec.slides.items():
             points = self.bodies[each.link]
             point = points[each.point] if each.point is not None else next(iter(points.values()))
-            through = self._sized(f"slides.{name}.through", complex(*each.through))
-            direction = self._angle(f"slides.{name}.direction", each.direction)
-            line = Line(self.numbers[each.on], through, direction, self.numbers[each.link], point)
+            line = self._line(f"slides.{name}", each, each.link, point)
             found[name] = LineJoint(name, line, self._angle(f"slides.{name}.angle", each.angle))
         return found
+
+    def _line(self, key: str, each: Slide | Slot, other: str, point: complex) -> Line:
+        """The line of a joint, and the point of another body on it."""
+        through = self._sized(f"{key}.through", complex(*each.through))
+        direction = self._angle(f"{key}.direction", each.direction)
+        return Line(self.numbers[each.on], through, direction, self.numbers[other], point)
 
     @cached_property
     def slots(self) -> dict[str, LineJoint]:
@@ -202,12 +206,7 @@ class Structure:
         found = {}
         for name, each in self.spec.slots.items():
             other = next(body for body, points in self.bodies.items() if each.point in points and body != each.on)
-            through, point = (
-                self._sized(f"slots.{name}.through", complex(*each.through)),
-                self.bodies[other][each.point],
-            )
-            direction = self._angle(f"slots.{name}.direction", each.direction)
-            line = Line(self.numbers[each.on], through, direction, self.numbers[other], point)
+            line = self._line(f"slots.{name}", each, other, self.bodies[other][each.point])
             found[name] = LineJoint(name, line)
         return found
 
