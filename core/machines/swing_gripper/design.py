@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -299,7 +300,6 @@ def _backward_check(design: SwingGripper) -> Check:
 
 
 def _place_check(design: SwingGripper, center: complex) -> Check:
-
     limit = design.spec.limits.handover_place
     off = misplacement(complex(*design.spec.pivots.output), design.handover.tip, center, design.spec.cylinder.radius)
     status: Status = "fail" if off.place > limit else "warn" if off.place > _MOST_OFF_PLACE else "pass"
@@ -326,7 +326,6 @@ def _inside_check(design: SwingGripper, release: Release) -> Check:
 
 
 def _gap_check(design: SwingGripper, release: Release) -> Check:
-
     degrees = design.motion.handover + release.window * np.array([-1.0, 0.0, 1.0])
     _, _, path = design.handover.path(degrees)
     gap, slip = float(np.abs(path.gap).max()), float(np.abs(path.slip).max())
@@ -374,7 +373,6 @@ def _handover(design: SwingGripper) -> Iterator[Remedy]:
 
     First the sense of a cam on the cylinder's own shaft, which must turn that against the gripper's swing.
     """
-
     spec, (start, end) = design.spec, design.motion.law.starts[1:3]
     if spec.cam is not None and runs_backwards(design):
         yield (("cam.sense", -spec.swing_sense),)
@@ -470,10 +468,10 @@ def _rollers(design: SwingGripper) -> Iterator[Remedy]:
 
 def _shaft(design: SwingGripper) -> Iterator[Remedy]:
     """Rollers that leave a hub round the shaft, where no more than half is to be taken off them; or a thinner shaft."""
-    section, least = design.cams.section, min(design.cams.min_radius)
+    section, least = design.cams.section, min(design.min_radius)
     rollers = {"cam.roller.radius": section.roller, "cam.return_roller.radius": section.return_roller}
     smaller: list[tuple[str, float]] = []
-    for (key, roller), radius in zip(rollers.items(), design.cams.min_radius, strict=False):
+    for (key, roller), radius in zip(rollers.items(), design.min_radius, strict=False):
         missing = HUB * section.shaft_radius - radius
         if roller is not None and missing > 0.0:
             smaller.append((key, at_most(roller.radius - missing)))
@@ -786,36 +784,6 @@ class GripperCams(DiscCams):
         """Pressure angle of largest magnitude of each cam in the phase accelerate [rad]."""
         return tuple(largest_pressure_angles(self.discs, 0.0, math.radians(self.motion.law.starts[1])))
 
-    @property
-    def max_pressure_angle(self) -> tuple[float, ...]:
-        """Maximum pressure angle of each cam [rad]."""
-        return tuple(cam.max_pressure_angle.value for cam in self.discs)
-
-    @property
-    def min_curvature_radius(self) -> tuple[float, ...]:
-        """Minimum convex radius of each pitch curve [mm]."""
-        return tuple(cam.min_curvature_radius.value for cam in self.discs)
-
-    @property
-    def max_pressure_angle_at(self) -> tuple[float, ...]:
-        """Cam angles of the largest pressure angles [rad]."""
-        return tuple(cam.max_pressure_angle.place for cam in self.discs)
-
-    @property
-    def min_curvature_radius_at(self) -> tuple[float, ...]:
-        """Cam angles of the minimum convex radii of curvature [rad]."""
-        return tuple(cam.min_curvature_radius.place for cam in self.discs)
-
-    @property
-    def max_radius(self) -> tuple[float, ...]:
-        """Largest radius of each profile [mm]."""
-        return tuple(cam.max_radius for cam in self.discs)
-
-    @property
-    def min_radius(self) -> tuple[float, ...]:
-        """Smallest radius of each profile [mm]."""
-        return tuple(cam.min_radius for cam in self.discs)
-
     @cached_property
     def center_remedy(self) -> Callable[[float], str]:
         """In words, whether cams can stand anywhere that keep a pressure angle [deg] over the turn.
@@ -1025,12 +993,10 @@ class Handover:
     @cached_property
     def center(self) -> complex:
         """Axis of a cylinder whose pitch circle the tip meets on the line of centres at the handover [mm]."""
-
         return drum_center(complex(*self.spec.pivots.output), self.tip, self.spec.cylinder.radius)
 
     def path(self, degrees: Any) -> tuple[Any, Any, TipPath]:
         """Lead of the arm on the line of centres [rad], tip speed [mm/s] and path of the tip at cylinder angles."""
-
         arm, radius = self.spec.arm.length, self.spec.cylinder.radius
         distance, lead_0 = arm + radius, 0.0
         if self.spec.cylinder.center is not None:
@@ -1080,8 +1046,26 @@ _OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_rad
 _OF_LAW = {"handover_speed", "handover_mismatch", "handover_center", "total_swing", *_PHASES}
 
 
+_KEYS_OF_MOTION = (
+    "handover_speed",
+    "handover_mismatch",
+    ("total_swing", "total_swing"),
+    ("min_transmission_angle", ">limits.transmission_angle"),
+)
+_KEYS_OF_CAMS = (
+    ("max_pressure_angle", "<limits.pressure_angle"),
+    "min_curvature_radius",
+    ("lift_off_speed", ">speed"),
+    "closing_torque",
+)
 _OF_FINGERS = ("finger-release", "pressure-angle", "cam-undercut")
 _OF_FINGER_CAM = ("fingers", "release", "swing_sense")
+
+
+def _of_each_cam(path: str) -> Any:
+    """A quantity that stands on each cam, main and return, at a path."""
+    value = attrgetter(path)
+    return property(lambda design: tuple(map(value, design.cams.discs)), doc=f"`{path}` of each cam.")
 
 
 class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
@@ -1090,39 +1074,12 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     kind = "swing-gripper"
     spec: SwingGripperSpec
     keys = {
-        "gripper": (
-            "handover_speed",
-            "handover_mismatch",
-            ("total_swing", "total_swing"),
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "cam_center",
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            "min_curvature_radius",
-            ("lift_off_speed", ">speed"),
-            "closing_torque",
-            "handover_center",
-        ),
+        "gripper": (*_KEYS_OF_MOTION, "cam_center", *_KEYS_OF_CAMS, "handover_center"),
         "analyze": (
-            "handover_speed",
-            "handover_mismatch",
-            ("total_swing", "total_swing"),
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "output_velocity_max",
-            "output_acceleration_max",
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            "min_curvature_radius",
-            ("lift_off_speed", ">speed"),
-            "closing_torque",
-            "max_radius",
+            *_KEYS_OF_MOTION, "output_velocity_max", "output_acceleration_max", *_KEYS_OF_CAMS, "max_radius",
         ),
-        "cam": (
-            "cam_center",
-            ("max_pressure_angle", "<limits.pressure_angle"),
-            "min_curvature_radius",
-            "max_radius",
-            "min_radius",
-        ),
-    }
+        "cam": ("cam_center", *_KEYS_OF_CAMS[:2], "max_radius", "min_radius"),
+    }  # fmt: skip
     outlines = {
         "gripper": Outline((*_LAW, *_PHASES, *_LOOP), _LAW_CHECKS, ("motion",)),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
@@ -1175,7 +1132,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     @cached_property
     def fingers(self) -> FingerCam:
         """What opens the fingers."""
-
         return FingerCam(self.spec, self.motion.timing)
 
     @property
@@ -1256,12 +1212,12 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     handover_mismatch: float = placed("handover.mismatch")
     handover_center: complex = placed("handover.center")
     cam_center: complex = placed("cams.center")
-    max_pressure_angle: tuple[float, ...] = placed("cams.max_pressure_angle")
-    min_curvature_radius: tuple[float, ...] = placed("cams.min_curvature_radius")
-    max_pressure_angle_at: tuple[float, ...] = placed("cams.max_pressure_angle_at")
-    min_curvature_radius_at: tuple[float, ...] = placed("cams.min_curvature_radius_at")
-    max_radius: tuple[float, ...] = placed("cams.max_radius")
-    min_radius: tuple[float, ...] = placed("cams.min_radius")
+    max_pressure_angle: tuple[float, ...] = _of_each_cam("max_pressure_angle.value")
+    min_curvature_radius: tuple[float, ...] = _of_each_cam("min_curvature_radius.value")
+    max_pressure_angle_at: tuple[float, ...] = _of_each_cam("max_pressure_angle.place")
+    min_curvature_radius_at: tuple[float, ...] = _of_each_cam("min_curvature_radius.place")
+    max_radius: tuple[float, ...] = _of_each_cam("max_radius")
+    min_radius: tuple[float, ...] = _of_each_cam("min_radius")
     closing_torque: float = placed("closure.closing_torque")
     lift_off_speed: float | None = placed("closure.lift_off_speed")
     spring_torque: float = placed("closure.spring_torque")
@@ -1382,7 +1338,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     def table_handover_window(self, _samples: int | None = None) -> Table:
         """Gap of the tip to the pitch circle, slip and speed difference round the handover."""
-
         half = self.spec.release.window if self.spec.release is not None else _WINDOW
         degrees = self.motion.handover + half * np.linspace(-1.0, 1.0, _ROWS)
         lead, speed, path = self.handover.path(degrees)
@@ -1524,7 +1479,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         if self.cams.refusal is not None:
             yield impossible("no cam can make this motion", self.cams.refusal, limit)
             return
-        over = self.advises and limit > 0.0 and is_steep(max(self.cams.max_pressure_angle), math.radians(limit))
+        over = self.advises and limit > 0.0 and is_steep(max(self.max_pressure_angle), math.radians(limit))
         yield from pressure_angle_checks(self.cams.discs, limit, self.cams.center_remedy(limit) if over else "")
         if self.warnings:
             yield from _accelerating(self, self.spec.limits.accelerate_pressure_angle)

@@ -179,7 +179,6 @@ class GripperLinkage:
         Notes
             Sought over the swing, not over the turn: every row of the motion lies within it, its very ends among them.
         """
-
         both = kept_last(lambda swing: self.transmission(self.local_output(swing)))
         total = self.law.total_swing
         wanted = [(lambda swing, i=i: both(swing)[i], False) for i in (0, 1)]

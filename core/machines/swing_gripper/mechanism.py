@@ -54,7 +54,6 @@ def rocker_too(design: SwingGripper) -> Motion:
 
 
 def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:
-
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
         arm = design.spec.arm
         links = links_of(design.linkage, phi, order, cmath.rect(arm.length, math.radians(arm.direction)))
