@@ -33,8 +33,7 @@ def disc_cam(cam: DiscCam, axis: Points, turn: Reals, color: str) -> Body:
     return Body(outline=profile, place=axis, turn=turn, color=color, fill=pale(color), name=cam.name)
 
 
-_TURN = 2.0 * math.pi
-_CLOSE = np.linspace(0.0, _TURN, 721)
+_CLOSE = np.linspace(0.0, TURN, 721)
 _STEM = 0.8
 """Of the prime radius: how far the rod of a slide is drawn."""
 _REACH = 1.15
@@ -51,7 +50,7 @@ def build(design: DiscCamDesign, fraction: Reals) -> Scene:
 
 
 def _cams(design: DiscCamDesign, fraction: Reals) -> list[Part]:
-    cams, turn = design.cams, design.spec.cam.sense * _TURN * fraction
+    cams, turn = design.cams, design.spec.cam.sense * TURN * fraction
     axis = track(0j, fraction)
     if design.spec.is_flat:
         outline = cams.flat.points(_CLOSE)[0]
@@ -63,7 +62,7 @@ def _cams(design: DiscCamDesign, fraction: Reals) -> list[Part]:
 
 
 def _followers(design: DiscCamDesign, fraction: Reals) -> list[Part]:
-    cams, phi = design.cams, _TURN * fraction
+    cams, phi = design.cams, TURN * fraction
     if design.spec.is_flat:
         return _face(design, phi)
     front = cams.main.path(phi, 1).position
@@ -117,14 +116,14 @@ _DRUM_STEM = 3.0
 def build_cylindrical(design: CylindricalCamDesign, fraction: Reals) -> Scene:
     """Positions over fractions of a turn of the cam; the track is drawn over three turns, so that it never ends."""
     scene, drum = of_motion.build(design, fraction), design.drum
-    phi = np.linspace(-_TURN, 2.0 * _TURN, 1081)
+    phi = np.linspace(-TURN, 2.0 * TURN, 1081)
     upper, lower = (
         -drum.sense * arc + 1j * along for arc, along in (drum.developed(drum.bottom, s, phi) for s in (1, -1))
     )
     outline = np.concatenate((upper, lower[::-1], upper[:1]))
     # after a turn the track stands where it stood, and a loop ends as it began
-    place = drum.sense * drum.bottom * _TURN * np.mod(np.asarray(fraction), 1.0) + 0j
-    level, center = np.zeros_like(fraction), 1j * design.follower_motion.evaluate(_TURN * fraction, 0)[0]
+    place = drum.sense * drum.bottom * TURN * np.mod(np.asarray(fraction), 1.0) + 0j
+    level, center = np.zeros_like(fraction), 1j * design.follower_motion.evaluate(TURN * fraction, 0)[0]
     parts = (
         Body(outline=outline, place=place, turn=level, color=style.BLUE, fill=pale(style.BLUE, 0.15), width=1.4),
         wheel(center, drum.roller_radius, fraction, color=style.ORANGE, fill=pale(style.ORANGE, 0.3)),
@@ -144,9 +143,9 @@ def draw_disc(command: str, design: DiscCamDesign) -> Figure:
     made, (outline, *rows) = panels.stack(f"{design.spec.name}: {command}", (3.2, *(4 if flat else 5) * (1.0,)))
     panels.drawing(outline, "Cam and follower an eighth of a revolution after cam angle 0")
     scene = build(design, np.array([_SHOWN]))
-    driven = 0j, design.spec.cam.sense * _TURN * scene_axes.AHEAD
+    driven = 0j, design.spec.cam.sense * TURN * scene_axes.AHEAD
     scene_axes.draw(outline, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])), driven=driven)
-    phi = np.linspace(0.0, 2.0 * math.pi, 1441)
+    phi = np.linspace(0.0, TURN, 1441)
     rates = design.cams.motion.evaluate(phi, 3)
     rates[:] = [np.where(phi == phi[-1], design.cams.motion.evaluate(phi, 3, side=-1)[n], rates[n]) for n in range(4)]
     _motion(rows, phi, rates, "rad" if design.spec.oscillates else "mm")
@@ -168,14 +167,14 @@ def _too_sharp(axes: Axes, design: DiscCamDesign) -> None:
     else:
         profile, lost = cams.main.points(_CLOSE)[1], limit * cams.main.curvature(_CLOSE) > 1.0
     if lost.any():
-        where = profile * np.exp(1j * design.spec.cam.sense * _TURN * _SHOWN)
+        where = profile * np.exp(1j * design.spec.cam.sense * TURN * _SHOWN)
         failing.past(axes, where.real, where.imag, lost, "radius below its limit")
         panels.legend_above(axes, 1)
 
 
 def _pitch_curves(axes: Axes, design: DiscCamDesign) -> None:
     """Pitch curves where the cams are drawn, and in red where the roller cuts into a profile."""
-    turned = np.exp(1j * design.spec.cam.sense * _TURN * _SHOWN)
+    turned = np.exp(1j * design.spec.cam.sense * TURN * _SHOWN)
     label = "pitch curve"
     for cam in follower_discs(design):
         pitch, profile = (points * turned for points in cam.points(_CLOSE))
@@ -205,7 +204,7 @@ def _pressure(axes: Axes, design: DiscCamDesign) -> None:
 def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
     """The picture of a command on a cylindrical cam: the track developed at its bottom."""
     made, (track, *rows) = panels.stack(f"{design.spec.name}: {command}", (1.8, 1.0, 1.0, 1.0, 1.0))
-    phi, drum = np.linspace(0.0, 2.0 * math.pi * (1.0 - 1e-9), 1441), design.drum
+    phi, drum = np.linspace(0.0, TURN * (1.0 - 1e-9), 1441), design.drum
     panels.drawing(track, f"Track developed at its bottom, radius {drum.bottom:.6g} mm")
     for side, color, width in ((0, style.GREY, 0.9), (1, style.BLUE, 1.6), (-1, style.BLUE, 1.6)):
         track.plot(*drum.developed(drum.bottom, side, phi), color=color, linewidth=width)
@@ -227,7 +226,7 @@ def _motion(rows: list[Axes], phi: Any, rates: Any, unit: str) -> None:
 def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
     """The picture of a command."""
     made, (shape, *rows) = panels.stack(f"{design.spec.name}: {command}", (2.6, 1.0, 1.0, 1.0))
-    t = np.linspace(0.0, 2.0 * math.pi, 1441)
+    t = np.linspace(0.0, TURN, 1441)
     panels.drawing(shape, f"Profile through {len(design.residuals)} points, missed by {design.fit_max:.3g} mm at most")
     pitch = design.cam.contact(t).center
     radius = design.cam.series.at(t, 0)[0]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.cams import disc_cam
-from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.drawing import failing, linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.of_motion import Frame, Positions, Seen, inputs
@@ -57,7 +57,6 @@ LEVEL = -1j
 UPRIGHT = 1j
 """Turns the cylinder drive's frame so that N stands above G; its cylinder, geared to N, then runs with the bed."""
 _BED, _RACK = "#CFE8F7", "#F6E3C0"
-_CAM_COLORS = (style.BLUE, style.RED)
 
 
 @dataclass(frozen=True)
@@ -288,15 +287,15 @@ def _cam_bodies(machine: Machine) -> list[Part]:
     if design.spec.cam is None:
         return []
     axis = track(machine.cam_axis, machine.fraction)
-    back = disc_cam(design.return_cam, axis, machine.cam_angle, _CAM_COLORS[1])
-    main = disc_cam(design.main_cam, axis, machine.cam_angle, _CAM_COLORS[0])
+    back = disc_cam(design.return_cam, axis, machine.cam_angle, panels.CAM_COLORS[1])
+    main = disc_cam(design.main_cam, axis, machine.cam_angle, panels.CAM_COLORS[0])
     parts: list[Part] = [back, replace(main, fill="")]
     places = (
         design.cam_base_radius + machine.lift,
         design.cam_base_radius - design.roller_center_distance + machine.lift,
     )
     rollers = [axis + place for place in places]
-    for center, color in zip(rollers, _CAM_COLORS, strict=True):
+    for center, color in zip(rollers, panels.CAM_COLORS, strict=True):
         parts.append(wheel(center, design.spec.cam.roller_radius, machine.fraction, color=color, fill=pale(color, 0.3)))
     parts.append(Chain(joints=(rollers[0], rollers[1]), color=style.GREY, width=1.5))
     parts.append(wheel(axis, 0.12 * design.cam_base_radius, machine.fraction, color=style.BLACK, fill="#ffffff"))
@@ -473,7 +472,6 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
     """Travel and speed over the input angle: the table `positions`, its twelve rows marked."""
     dense = design.table("positions", samples=_ROWS)
     twelve = design.table("positions", samples=POSITIONS)
-    start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
     for each, what, ylabel in zip(axes, ("displacement", "velocity"), ("travel [mm]", "speed [mm/s]"), strict=True):
         panels.turn_panel(each, ylabel, "input angle [deg]" if what == "velocity" else "")
         for part, color, line in (("cylinder", CYLINDER, style.LONG), ("bed", BED, "-")):
@@ -486,20 +484,14 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
     panels.heading(axes[0], "Travel of bed and cylinder")
     panels.heading(axes[1], "Speed")
-    _zone(axes, start, end)
+    start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
+    for each, label in zip(axes, (f"synchronous zone, {start:.4g}° to {end:.4g}°", None), strict=True):
+        linkage.shade(each, linkage.DWELL, start, end - start, label)
     _equal_speeds(axes[1], design)
     _poor_transmission(axes[1], design)
     time_axes.over_input(axes[1], time_axes.turn_time(design))
     panels.legend_above(axes[0])
     panels.legend_above(axes[1])
-
-
-def _zone(axes: list[Axes], start: float, end: float) -> None:
-    label = f"synchronous zone, {start:.4g}° to {end:.4g}°"
-    for each in axes:
-        for left, right in panels.Phase("sync", start, end).within_turn():
-            each.axvspan(left, right, color="#CFE8F7", linewidth=0, zorder=0, label=label if each is axes[0] else None)
-            label = "_"
 
 
 def _poor_transmission(axes: Axes, design: FlatbedPress) -> None:

@@ -80,7 +80,6 @@ def _allowed(axes: Axes, design: Any) -> None:
 
 def residual(axes: Axes, design: Any) -> None:
     """Vibration that is left in the dwell, over the speed, with the working speed and what is allowed."""
-
     table = design.table("spectrum")
     speed, amplitude = table["speed"], table["residual"]
     unit = table.units[table.columns.index("residual")]

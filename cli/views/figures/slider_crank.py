@@ -12,7 +12,7 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.views.scenes.of_motion import Positions, Seen
-from gearlink.cli.views.scenes.scene import Line, Part, Points, Reals, Scene, block, circle, fixed_circle
+from gearlink.cli.views.scenes.scene import TURN, Line, Part, Points, Reals, Scene, block, circle, fixed_circle
 from gearlink.core.machines.slider_crank.mechanism import DEPTH
 from gearlink.core.mechanism.links import FRAME
 
@@ -54,7 +54,7 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
     part, here = design.slider_crank, Positions.of(design, fraction)
     crank, rod, offset = part.crank_length, part.rod, part.offset
     depth, rate = DEPTH.rates(here.motion, here.inputs, 1)
-    whole = DEPTH.rates(here.motion, np.linspace(0.0, _TURN, 721), 0)[0]
+    whole = DEPTH.rates(here.motion, np.linspace(0.0, TURN, 721), 0)[0]
     size = min(0.2 * rod, max(1.5 * float(np.ptp(whole)), 0.05 * rod))  # beside a short stroke no block that hides it
     ways = np.array([whole.min() - 0.15 * rod, whole.max() + 0.15 * rod])
     dead = [-offset - 1j * place + 0.11 * rod * np.array([-1.0, 1.0]) for place in (whole.min(), whole.max())]
@@ -74,7 +74,6 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
     )
 
 
-_TURN = 2.0 * math.pi
 _SMALL = 1.0 / 12.0
 """Of the rod: a shorter crank is drawn a second time, magnified."""
 
@@ -95,8 +94,8 @@ def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
     """Both dead centres and the position half-way, with stroke and offset."""
     part, (folded, extended) = design.slider_crank, (design.dead_center_folded_at, design.dead_center_extended_at)
     panels.drawing(axes, f"Crank {part.crank_length:.6g}, rod {part.rod:.6g}")
-    scene = build(design, np.array([0.5 * (folded + extended), folded, extended]) / _TURN)
-    ahead = build(design, np.array([0.5 * (folded + extended) / _TURN + scene_axes.AHEAD]))
+    scene = build(design, np.array([0.5 * (folded + extended), folded, extended]) / TURN)
+    ahead = build(design, np.array([0.5 * (folded + extended) / TURN + scene_axes.AHEAD]))
     scene_axes.draw(axes, scene, ahead=ahead)
     angles = part.dead_center_folded, part.dead_center_extended
     for i, (name, color, angle) in enumerate(

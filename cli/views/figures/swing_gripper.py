@@ -32,16 +32,12 @@ from gearlink.cli.views.scenes.scene import (
     track,
     wheel,
 )
+from gearlink.core.machines.swing_gripper.design import SwingGripper, drum_axis
 from gearlink.core.machines.swing_gripper.mechanism import without_cams
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from gearlink.core.machines.swing_gripper.design import SwingGripper
-
-
-_CAM_COLORS = (style.BLUE, style.RED)
 
 
 def build(design: SwingGripper, fraction: Reals) -> Scene:
@@ -66,7 +62,7 @@ def build(design: SwingGripper, fraction: Reals) -> Scene:
         "swing of the gripper [deg]",
         over="cylinder angle",
         marked=bands((phase.name, phase.start, phase.end, PHASE_TINTS[phase.name]) for phase in phases(design)),
-        marks=(*letters("AE", A=a, C=c, D=d, E=e, F=f), Mark(track(drum_center(design), fraction), pivot=True)),
+        marks=(*letters("AE", A=a, C=c, D=d, E=e, F=f), Mark(track(drum_axis(design), fraction), pivot=True)),
         values={
             "swing": ("°", np.degrees(value)),
             "speed of the tip": (" mm/s", rate * design.shaft_speed * design.spec.arm.length),
@@ -74,16 +70,10 @@ def build(design: SwingGripper, fraction: Reals) -> Scene:
     )
 
 
-def drum_center(design: SwingGripper) -> complex:
-    """Axis of the drum: as the file has it, or where the handover wants it."""
-    given = design.spec.cylinder.center
-    return complex(*given) if given else design.handover_center
-
-
 def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
     """The drum that takes the sheet over, with its grippers where the tip meets them at the handover."""
     spec = design.spec
-    center = drum_center(design)
+    center = drum_axis(design)
     handover = Positions(without_cams(design), np.radians([design.motion.handover]))
     meeting = complex(handover.at("output", "F")[0])
     radius = spec.cylinder.radius
@@ -114,9 +104,9 @@ def _cam_bodies(design: SwingGripper, here: Positions) -> list[Part]:
     if spec.return_roller is not None:
         rollers.append((spec.return_roller, spec.roller.angle + spec.return_roller.angle))
     parts: list[Part] = []
-    for cam, color in zip(design.cams.discs, _CAM_COLORS, strict=False):
+    for cam, color in zip(design.cams.discs, panels.CAM_COLORS, strict=False):
         parts.append(disc_cam(cam, axis, spec.sense * turned, color))
-    for (roller, angle), color in zip(rollers, _CAM_COLORS, strict=False):
+    for (roller, angle), color in zip(rollers, panels.CAM_COLORS, strict=False):
         center = here.at("input", cmath.rect(roller.arm, math.radians(angle)))
         parts.append(Chain(joints=(pivot, center), color=style.BLUE, marked=False))
         parts.append(wheel(center, roller.radius, turned, color=color, fill=pale(color, 0.3)))
@@ -220,7 +210,7 @@ def mechanism(axes: Axes, design: SwingGripper) -> None:
     linkage = replace(scene, parts=tuple(part for part in scene.parts if isinstance(part, Chain)))
     for i, (name, degrees, color, line) in enumerate(stations):
         scene_axes.lightly(axes, linkage, i, color, f"{name}, {degrees:g}°", line=line)
-    e, drum = complex(design.linkage.output_pivot), drum_center(design)
+    e, drum = complex(design.linkage.output_pivot), drum_axis(design)
     axes.plot([e.real, drum.real], [e.imag, drum.imag], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=3)
     if design.spec.cam is not None and design.cams.stand:
         panels.cam_axis(axes, design.cam_center, design.cams.discs, design.spec.cam.sense, design.spec.cam.shaft_radius)

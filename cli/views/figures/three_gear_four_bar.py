@@ -16,7 +16,7 @@ from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, styl
 from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.scenes.gears import Toothed, train
 from gearlink.cli.views.scenes.of_motion import Positions, Seen
-from gearlink.cli.views.scenes.scene import DWELL, STEP, Band, Reals, Scene, bands, fixed_circle
+from gearlink.cli.views.scenes.scene import DWELL, STEP, TURN, Band, Reals, Scene, bands, fixed_circle
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.mechanism import OUTPUT, poles
 from gearlink.core.machines.three_gear.motion import output_angle
@@ -258,8 +258,8 @@ def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:
     """Links and gears to scale in the dwell position; lightly, gears 1 and 5 at their closest."""
     angle, words = dwell_position(design)
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(angle) % 360.0:.5g}°")
-    scene = scene_axes.turned(axes, design, build, angle / (2.0 * math.pi), 0.0)
-    if abs(math.remainder(angle, 2.0 * math.pi)) > math.radians(1.0):
+    scene = scene_axes.turned(axes, design, build, angle / (TURN), 0.0)
+    if abs(math.remainder(angle, TURN)) > math.radians(1.0):
         scene_axes.lightly(
             axes, scene, 1, name="crank along the frame" if design.gear_gap is None else "gears 1 and 5 closest"
         )
@@ -284,7 +284,7 @@ def _collision(axes: Axes, design: ThreeGearFourBar) -> None:
 
 def _overlap(center_1: complex, radius_1: float, center_2: complex, radius_2: float) -> Any:
     """Outline of what two circles share: the points of each that lie within the other, in order round their middle."""
-    turn = np.exp(1j * np.linspace(0.0, 2.0 * math.pi, 20001))
+    turn = np.exp(1j * np.linspace(0.0, TURN, 20001))
     first, second = center_1 + radius_1 * turn, center_2 + radius_2 * turn
     points = np.concatenate([first[abs(first - center_2) <= radius_2], second[abs(second - center_1) <= radius_1]])
     return points[np.argsort(np.angle(points - points.mean()))]
@@ -317,7 +317,6 @@ def _three_gear_mechanism_window(design: ThreeGearFourBar) -> dict[str, str]:
     return _WITHIN if asked and design.tolerance_dwell is not None else {}
 
 
-_TURN = 2.0 * math.pi
 _MOST = 2
 _CLOSE = 0.06
 
@@ -330,7 +329,7 @@ def draw_poles(design: ThreeGearFourBar) -> Figure:
     words = "standstill" if design.dwell_crank_angles else "minimum speed"
     for axes, phi in zip(rows, places, strict=True):
         panels.drawing(axes, f"Poles at the {words}, crank angle {math.degrees(phi):.5g}°")
-        scene_axes.draw(axes, build(design, np.array([phi / _TURN])))
+        scene_axes.draw(axes, build(design, np.array([phi / TURN])))
         _poles(axes, design, phi)
     return made
 

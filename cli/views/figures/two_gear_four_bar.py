@@ -13,7 +13,7 @@ from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, styl
 from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.scenes.gears import Toothed, train
 from gearlink.cli.views.scenes.of_motion import Positions, Seen
-from gearlink.cli.views.scenes.scene import STEP, Part, Reals, Scene, bands, fixed_circle
+from gearlink.cli.views.scenes.scene import STEP, TURN, Part, Reals, Scene, bands, fixed_circle
 from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
 from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
 
@@ -37,7 +37,6 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     return here.scene((*output, *planet, *links), seen, "output angle [deg]", marked=steps)
 
 
-_TURN = 2.0 * math.pi
 _WORDS = {
     **linkage.FOUR_BAR,
     "gear_ratio": "gear ratio, −z₂/z₅ (ring: z₂/z₅)",
@@ -76,7 +75,7 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     phi = places[0] if places else design.speed_ratio_min_at
     words = "standstill" if places else "minimum output speed"
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
-    scene = scene_axes.turned(axes, design, build, phi / (2.0 * math.pi))
+    scene = scene_axes.turned(axes, design, build, phi / (TURN))
     pole, d = cmath.rect(abs(design.mesh.reference_radius[1]), phi), complex(design.frame_length)
     axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
     joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)
@@ -105,7 +104,7 @@ def _magnified(axes: Axes, design: TwoGearFourBar) -> None:
                       label=f"within ±{band:g}° over {width:.5g}°", gid="within")  # fmt: skip
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.plot(degrees, angle, color=style.BLUE, linewidth=1.6, gid="magnified")
-    linkage.standstills(axes, [turn + place for place in design.dwell_crank_angles for turn in (0.0, -_TURN, _TURN)])
+    linkage.standstills(axes, [turn + place for place in design.dwell_crank_angles for turn in (0.0, -TURN, TURN)])
     window = getattr(design, "window", None)
     asked = design.spec.dwell_window if window is None else math.degrees(window)
     if asked is not None:
