@@ -456,7 +456,6 @@ class GenevaDrive(RealSpeed, Design):
     @cached_property
     def drive(self) -> Geneva:
         """Its motion in closed form."""
-
         sign = 1.0 if self.spec.type == "external" else -1.0
         return Geneva(self.spec.slots, self.spec.pins, self.spec.center_distance, sign)
 
@@ -470,7 +469,6 @@ class GenevaDrive(RealSpeed, Design):
 
     def outlines_with(self, locking: float) -> Outlines:
         """Wheel and driver with a locking disc of this radius [mm]."""
-
         return Outlines(self.drive, self._half_slot, locking, locking + self.spec.locking_clearance)
 
     @property

@@ -211,7 +211,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     @cached_property
     def bar(self) -> SixBar:
         """The loop at its start."""
-
         one, other = (train_relation(train.first_pin, train.gears) for train in self.spec.trains)
         # The file counts the output from its pivot, the loop on the way from A to F.
         start = {
@@ -224,7 +223,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     @cached_property
     def course(self) -> Course:
         """The motion from the start on."""
-
         asked = self.spec.range
         ends = None if asked is None else (math.radians(asked.start), math.radians(asked.end))
         return Course(self.bar, ends)
@@ -267,7 +265,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         return self._turnings(2)
 
     def _turnings(self, order: int) -> list[Turning]:
-
         ends = self.period_turns is None
         return turnings(self.rate(order), self.rate(order + 1), self.course.grid, ends)
 
@@ -323,7 +320,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     @cached_property
     def layouts(self) -> tuple[Layout, ...]:
         """The bodies of each plane of gears."""
-
         return layouts(self)
 
     @property
