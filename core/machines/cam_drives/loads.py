@@ -64,16 +64,7 @@ class LinkedCamsSection(Loads):
     links: LinkedMasses = Field(LinkedMasses.model_construct(), description=_NOTHING)
 
 
-class _OfCams(LoadsDesign):
-    """What these drives share: their laws jump where the file's segments meet."""
-
-    @property
-    def transmission_angle(self) -> float | None:
-        """None: the pressure angle stands instead."""
-        return None
-
-
-class CamGearLoads(_OfCams):
+class CamGearLoads(LoadsDesign):
     """Input angle: the carrier's, from +x."""
 
     kind = "cam-gear"
@@ -85,7 +76,7 @@ class CamGearLoads(_OfCams):
     design: cached_property[CamGear] = geometry(CamGear)
 
 
-class CamLinkageLoads(_OfCams):
+class CamLinkageLoads(LoadsDesign):
     """Input angle: that of AB, from +x."""
 
     kind = "cam-linkage"
@@ -96,8 +87,13 @@ class CamLinkageLoads(_OfCams):
     outlines = loads_outline(pins, meshes)
     design: cached_property[CamLinkage] = geometry(CamLinkage)
 
+    @property
+    def transmission_angle(self) -> float | None:
+        """None: the pressure angle stands instead."""
+        return None
 
-class LinkedCamsLoads(_OfCams):
+
+class LinkedCamsLoads(LoadsDesign):
     """Input angle: the shaft's."""
 
     kind = "linked-cams"

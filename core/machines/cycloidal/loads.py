@@ -52,11 +52,6 @@ class ReducerLoads(LoadsDesign):
         return ("eccentric", *(f"disc_{k}" for k in range(1, self.spec.discs + 1)), "output")
 
     @property
-    def transmission_angle(self) -> float | None:
-        """None: the pressure angles of the pins stand instead."""
-        return None
-
-    @property
     def turns(self) -> int:
         """Turns of the eccentric after which the output comes home."""
         return abs(self.design.ratio)

@@ -43,8 +43,3 @@ class GenevaLoads(LoadsDesign):
     stands = True
     outlines = loads_outline(pins, meshes)
     design: cached_property[GenevaDrive] = geometry(GenevaDrive)
-
-    @property
-    def transmission_angle(self) -> float | None:
-        """None: the pin pushes across its slot."""
-        return None

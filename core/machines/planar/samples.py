@@ -484,15 +484,12 @@ class PlanarSamples:
         """The designs as manufactured; what is not certain is left to the class."""
         parts = [self._part(some, names) for some in self._parts(columns)]
         unsure = [part.unsure for part in parts if part.unsure is not None]
+
+        def whole(i: int, name: str) -> Any:
+            return np.concatenate([getattr(part.findings[i], name) for part in parts])
+
         findings = [
-            Findings(
-                first.code,
-                np.concatenate([part.findings[i].value for part in parts]),
-                np.concatenate([part.findings[i].limit for part in parts]),
-                np.concatenate([part.findings[i].fails for part in parts]),
-                np.concatenate([part.findings[i].warns for part in parts]),
-                first.unit,
-            )
+            Findings(first.code, whole(i, "value"), whole(i, "limit"), whole(i, "fails"), whole(i, "warns"), first.unit)
             for i, first in enumerate(parts[0].findings)
         ]
         return Evaluated(
