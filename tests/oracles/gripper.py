@@ -95,11 +95,9 @@ def mirrored() -> SwingGripper:
 def kinetic_energy(linkage: GripperLinkage, masses: Masses, shaft_speed: float, degrees: Any) -> Any:
     """Energy [J] of cam rocker, coupler and gripper, from the velocities of their points."""
     motion = linkage.motion(degrees, 1)
-    w1, w3, w4 = (
-        shaft_speed * rate for rate in (motion.input_velocity, motion.coupler_velocity, motion.output_velocity)
-    )
-    c = 1e-3j * w1 * linkage.input * np.exp(1j * motion.input_angle)
-    d = 1e-3j * w4 * linkage.output * np.exp(1j * motion.output_angle)
+    w1, w3, w4 = (shaft_speed * rate for rate in (motion.input.first, motion.coupler.first, motion.output.first))
+    c = 1e-3j * w1 * linkage.input * np.exp(1j * motion.input.value)
+    d = 1e-3j * w4 * linkage.output * np.exp(1j * motion.output.value)
     middle = 0.5 * (c + d)
     translation = masses.coupler_mass * np.abs(middle) ** 2
     return 0.5 * (translation + masses.input * w1**2 + masses.coupler * w3**2 + masses.output * w4**2)

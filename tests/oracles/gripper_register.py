@@ -32,13 +32,13 @@ class GripperByHand:
         self.spec, self.motion = design.spec, design.linkage.motion(np.degrees(input_angle), 0)
         self.contact = roller_contact(design.cams, self.motion, input_angle)
         lead = math.radians(self.spec.arm.direction - self.spec.output_direction)
-        self.along = 1j * np.exp(1j * (self.motion.output_angle + lead))
+        self.along = 1j * np.exp(1j * (self.motion.output.value + lead))
 
     def gain(self, key: str) -> Any:
         """Gain of a source: the gripper turns, and the axis E takes the tip along."""
         arm, links, motion = self.spec.arm.length, self.spec.links, self.motion
-        loop = loop_gains(motion.input_angle, motion.coupler_angle, motion.output_angle, links.output)
-        mu_c, mu_d = motion.input_angle - motion.coupler_angle, motion.output_angle - motion.coupler_angle
+        loop = loop_gains(motion.input.value, motion.coupler.value, motion.output.value, links.output)
+        mu_c, mu_d = motion.input.value - motion.coupler.value, motion.output.value - motion.coupler.value
         per_turn = arm * links.input * np.sin(mu_c) / (links.output * np.sin(mu_d))
         rolled = per_turn * self.contact.pivot
         vectors = dict.fromkeys(PINS, arm * loop.pin) | {
@@ -54,7 +54,7 @@ class GripperByHand:
             part, way = VECTORS[key]
             return (vectors[part] * way).real
         if key == "arm.direction":
-            return np.full(np.shape(motion.output_angle), math.radians(arm))
+            return np.full(np.shape(motion.output.value), math.radians(arm))
         turns = {"arm": self.contact.length, "radius": self.contact.radius, "angle": -math.radians(1.0)}
         return per_turn * turns[ROLLER[key]]
 
@@ -65,7 +65,7 @@ class GripperByHand:
             name, way = VECTORS.get(key, (ROLLER.get(key, key.removeprefix("pins.")), 1.0))
             off[name] = off[name] + error * way
         links = self.spec.links
-        first, last = self.motion.input_angle[:, None], self.motion.output_angle[:, None]
+        first, last = self.motion.input.value[:, None], self.motion.output.value[:, None]
         a, e = (complex(*pivot) for pivot in (self.spec.pivots.input, self.spec.pivots.output))
         pin, joint = a + links.input * np.exp(1j * first), e + links.output * np.exp(1j * last)
         side = int(np.sign(((joint - pin) / (e - pin)).imag[0, 0]))

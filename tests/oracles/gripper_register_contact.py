@@ -90,5 +90,5 @@ class RollerContact:
 def roller_contact(cams: GripperCams, motion: GripperMotion, input_angle: Reals) -> RollerContact:
     """The main roller's contact at cylinder angles [rad], parts without errors."""
     cam, roller = cams.main_cam, cams.section.roller
-    along: Points = np.exp(1j * (motion.input_angle + math.radians(roller.angle)))
+    along: Points = np.exp(1j * (motion.input.value + math.radians(roller.angle)))
     return RollerContact(roller.arm, along, cam.normals(input_angle), cam.curvature(input_angle))

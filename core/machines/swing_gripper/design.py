@@ -218,7 +218,7 @@ class Passes:
 
 
 def _input_angle(linkage: GripperLinkage, swing: Reals) -> Reals:
-    return linkage.at(swing, (swing,)).input_angle
+    return linkage.at((swing,)).input.value
 
 
 # Share of the surface speed that the two may differ by: rounding only.
@@ -678,8 +678,8 @@ class RollerCourse:
     def __call__(self, theta: Reals, order: int) -> RollerPath:
         """The path of a disc cam at cam angles [rad]."""
         motion = self.linkage.kept_motion(theta, order)
-        second = motion.input_acceleration if order > 1 else 0.0
-        return oscillating(self.pivot, self.arm, motion.input_angle + self.ahead, motion.input_velocity, second)
+        second = motion.input.second if order > 1 else 0.0
+        return oscillating(self.pivot, self.arm, motion.input.value + self.ahead, motion.input.first, second)
 
 
 class GripperCams(DiscCams):
@@ -741,7 +741,7 @@ class GripperCams(DiscCams):
 
         def law(cam_angle: Reals) -> tuple[Reals, Reals]:
             motion = linkage.motion(np.degrees(cam_angle), 1)
-            return motion.input_angle + ahead, motion.input_velocity
+            return motion.input.value + ahead, motion.input.first
 
         return RockingRoller(law, linkage.input_pivot, roller.arm, side)
 
@@ -753,7 +753,7 @@ class GripperCams(DiscCams):
     @property
     def main_arm(self) -> complex:
         """Direction of the main roller's arm at the pick-up position."""
-        angle = float(self.motion.linkage.motion(np.array([0.0]), 0).input_angle[0])
+        angle = float(self.motion.linkage.motion(np.array([0.0]), 0).input.value[0])
         return cmath.rect(1.0, angle + math.radians(self.section.roller.angle))
 
     @cached_property

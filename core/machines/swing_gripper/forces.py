@@ -70,16 +70,16 @@ def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masse
     k4 = 1.0 / motion.input_ratio
     k3 = motion.coupler_ratio / motion.input_ratio
     square = shaft_speed * shaft_speed
-    e1, e3 = np.exp(1j * motion.input_angle), np.exp(1j * motion.coupler_angle)
+    e1, e3 = np.exp(1j * motion.input.value), np.exp(1j * motion.coupler.value)
     arm, half = linkage.input, 0.5 * linkage.coupler
     per_rocker = 1j * (arm * e1 + half * k3 * e3)
-    acceleration = arm * (1j * motion.input_acceleration - motion.input_velocity**2) * e1
-    acceleration += half * (1j * motion.coupler_acceleration - motion.coupler_velocity**2) * e3
+    acceleration = arm * (1j * motion.input.second - motion.input.first**2) * e1
+    acceleration += half * (1j * motion.coupler.second - motion.coupler.first**2) * e3
     translation = masses.coupler_mass * _M2 * np.real(np.conj(per_rocker) * acceleration)
     turning = (
-        masses.input * motion.input_acceleration
-        + masses.output * motion.output_acceleration * k4
-        + masses.coupler * motion.coupler_acceleration * k3
+        masses.input * motion.input.second
+        + masses.output * motion.output.second * k4
+        + masses.coupler * motion.coupler.second * k3
     )
     torque: Reals = square * (turning + translation)
     return torque
@@ -103,7 +103,7 @@ class RockerInertia:
         """Of the cam rocker with linkage and of the return rocker [N m] at cylinder angles [deg]."""
         motion = self.linkage.motion(degrees, 2)
         main = inertia_torque(self.linkage, motion, self.masses, self.shaft_speed)
-        return main, self.masses.return_rocker * motion.input_acceleration * self.shaft_speed**2
+        return main, self.masses.return_rocker * motion.input.second * self.shaft_speed**2
 
     def greatest(self, senses: Sequence[float]) -> tuple[Extreme, ...]:
         """Maximum torque of each rocker in a sense [N m], and the cylinder angle [deg] of it."""
@@ -333,8 +333,8 @@ class Stop:
         masses, linkage = Masses.of(self.spec.inertia), self.motion.linkage
         first, third = self._ratios
         bite = linkage.motion(np.zeros(1), 0)
-        center = linkage.input * first * np.exp(1j * bite.input_angle[0])
-        center += 0.5 * linkage.coupler * third * np.exp(1j * bite.coupler_angle[0])
+        center = linkage.input * first * np.exp(1j * bite.input.value[0])
+        center += 0.5 * linkage.coupler * third * np.exp(1j * bite.coupler.value[0])
         turning = masses.output + masses.input * first**2 + masses.coupler * third**2
         whole = turning + masses.coupler_mass * (_M * abs(center)) ** 2
         return float(whole / (_M * self.section.radius) ** 2)

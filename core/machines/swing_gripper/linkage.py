@@ -21,6 +21,7 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
+from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over, least_of
 from gearlink.core.numerics.together import kept_last
@@ -39,26 +40,16 @@ _MOST_KEPT = 8  # as many arrays as the grids of a design's searches, with room
 
 @dataclass(frozen=True, slots=True)
 class GripperMotion:
-    """Angles [rad] and derivatives by theta at the angles asked for; arrays of one shape.
+    """Angles [rad] with derivatives by theta as far as asked for; arrays of one shape.
 
-    `input` is AC, `coupler` C->D, `output` E->D. Derivatives beyond the order asked for are empty. `input_ratio` and
-    `coupler_ratio` are derivatives by the output's angle, geometry that there is in the dwells too; of order 0 empty.
+    `input` is AC, `coupler` C->D, `output` E->D. `input_ratio` and `coupler_ratio` are derivatives by the output's
+    angle, geometry that there is in the dwells too; of order 0 empty.
     """
 
-    theta: Reals
     beta: Reals
-    input_angle: Reals
-    coupler_angle: Reals
-    output_angle: Reals
-    input_velocity: Reals
-    coupler_velocity: Reals
-    output_velocity: Reals
-    input_acceleration: Reals
-    coupler_acceleration: Reals
-    output_acceleration: Reals
-    input_jerk: Reals
-    coupler_jerk: Reals
-    output_jerk: Reals
+    input: Turn
+    coupler: Turn
+    output: Turn
     input_ratio: Reals
     coupler_ratio: Reals
 
@@ -118,8 +109,7 @@ class GripperLinkage:
         Raises
             NoSolution - where the linkage does not close; `swing.require_swing` says why beforehand
         """
-        beta = self.law.evaluate(degrees, order)
-        return self.at(degrees, beta)
+        return self.at(self.law.evaluate(degrees, order))
 
     def kept_motion(self, angles: Reals, order: int) -> GripperMotion:
         """Motion of all links at cylinder angles [rad], kept for who asks next at the very same array: both cams do.
@@ -131,7 +121,7 @@ class GripperLinkage:
         place = 0 if angles.flags.writeable else id(angles)
         last = self._kept.get(place)
         if last is None or angles is not last[0] or order > last[1]:
-            last = angles, order, self.at(np.degrees(angles), self.law.over(angles, order))
+            last = angles, order, self.at(self.law.over(angles, order))
             if place == 0 or len(self._kept) < _MOST_KEPT:
                 self._kept[place] = last
         return last[2]
@@ -156,21 +146,22 @@ class GripperLinkage:
     def _kept(self) -> dict[int, tuple[Reals, int, GripperMotion]]:
         return {}
 
-    def at(self, degrees: Reals, beta: tuple[Reals, ...]) -> GripperMotion:
+    def at(self, beta: tuple[Reals, ...]) -> GripperMotion:
         """Motion of all links where the swing angle and its derivatives are known already."""
         order = len(beta) - 1
         sense = self.swing_sense
         output = self.output_direction + sense * beta[0]
-        nothing = np.empty(0)
-        rates = [sense * beta[n] if n <= order else nothing for n in (1, 2, 3)]
+        nothing, rates = np.empty(0), [sense * rate for rate in beta[1:]]
         with at_key("links"):
             first, second, _, *by_output = solve_inverse(self.reading, output - self.frame_direction, order)
-        links = in_motion(by_output[: 2 * order], *rates) if order else []
-        links += [nothing] * (6 - len(links))
-        each = [rate for i in range(3) for rate in (*links[2 * i : 2 * i + 2], rates[i])]
+        links = in_motion(by_output[: 2 * order], *rates, *[nothing] * (3 - order)) if order else []
         ratios = by_output[:2] if order else (nothing, nothing)
-        angles = first + self._shifts[0], second + self._shifts[1], output + self.output_shift
-        return GripperMotion(np.radians(degrees), beta[0], *angles, *each, *ratios)
+        turns = (
+            Turn(first + self._shifts[0], *links[::2]),
+            Turn(second + self._shifts[1], *links[1::2]),
+            Turn(output + self.output_shift, *rates),
+        )
+        return GripperMotion(beta[0], *turns, *ratios)
 
     @cached_property
     def least_transmission(self) -> tuple[Extreme, Extreme]:
@@ -206,9 +197,9 @@ class GripperLinkage:
         """Minimum distance of each place from the coupler over the swing [mm], and the swing [rad] there."""
 
         def ends(swing: Reals) -> tuple[Points, Points]:
-            motion = self.at(swing, (swing,))
-            c = self.input_pivot + self.input * np.exp(1j * motion.input_angle)
-            return c, self.output_pivot + self.output * np.exp(1j * motion.output_angle)
+            motion = self.at((swing,))
+            c = self.input_pivot + self.input * np.exp(1j * motion.input.value)
+            return c, self.output_pivot + self.output * np.exp(1j * motion.output.value)
 
         both = kept_last(ends)
         wanted = [(lambda swing, place=place: beside_line(place, *both(swing)), False) for place in places]
@@ -419,7 +410,7 @@ def closed_form_error(linkage: GripperLinkage, motion: GripperMotion) -> Reals:
 def _inverse_angles(linkage: GripperLinkage, motion: GripperMotion) -> tuple[Reals, Reals, Reals]:
     """Angles of driving link, coupler and driven link of the linkage read from E to A."""
     turned = linkage.frame_direction
-    return motion.output_angle - turned + math.pi, motion.coupler_angle - turned, motion.input_angle - turned - math.pi
+    return motion.output.value - turned + math.pi, motion.coupler.value - turned, motion.input.value - turned - math.pi
 
 
 def _opening(links: FourBar, phi: float, coupler: float, rocker: float) -> complex:

@@ -14,7 +14,7 @@ from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.joints import Connection, Contact, Pin
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
-from gearlink.core.mechanism.rates import Turn, fixed, steady
+from gearlink.core.mechanism.rates import fixed, steady
 from gearlink.core.mechanism.vectors import least_transmission
 from gearlink.core.studies.loads.contact import roller_on
 
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
-
-_RATES = ("angle", "velocity", "acceleration", "jerk")
 
 
 def motion(design: SwingGripper) -> Motion:
@@ -48,7 +46,7 @@ def without_cams(design: SwingGripper) -> Motion:
 def rocker_too(design: SwingGripper) -> Motion:
     """Motion of the linkage alone with both outputs: the arm, and the cam rocker from the pick-up position."""
     found = without_cams(design)
-    start = float(design.linkage.motion(np.zeros(1), 0).input_angle[0])
+    start = float(design.linkage.motion(np.zeros(1), 0).input.value[0])
     rocker = found.outputs[0]._replace(name="Cam rocker AC", course=turned("input").less(start))
     return replace(found, outputs=(*found.outputs, rocker))
 
@@ -109,15 +107,14 @@ def links_of(linkage: GripperLinkage, phi: Reals, order: int, arm: complex = 0j)
     Source
         swing-gripper paper (4), (5)
     """
-    found, names = linkage.motion(np.degrees(phi), order), ("input", "coupler", "output")
-    turns = {name: Turn(*(getattr(found, f"{name}_{rate}") for rate in _RATES[: order + 1])) for name in names}
+    found = linkage.motion(np.degrees(phi), order)
     a, e = (fixed(pivot, phi, order=order) for pivot in (linkage.input_pivot, linkage.output_pivot))
-    rocker = Link(a, turns["input"], {"A": 0.0, "C": linkage.input})
+    rocker = Link(a, found.input, {"A": 0.0, "C": linkage.input})
     tip = arm * cmath.exp(-1j * linkage.output_direction)
     return {
         "input": rocker,
-        "coupler": Link(rocker.at("C"), turns["coupler"], {"C": 0.0, "D": linkage.coupler}),
-        "output": Link(e, turns["output"], {"E": 0.0, "D": linkage.output, "F": tip}),
+        "coupler": Link(rocker.at("C"), found.coupler, {"C": 0.0, "D": linkage.coupler}),
+        "output": Link(e, found.output, {"E": 0.0, "D": linkage.output, "F": tip}),
     }
 
 

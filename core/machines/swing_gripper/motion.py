@@ -265,12 +265,12 @@ class Motion:
 
         joints = [start * _RADIAN for start in self.law.starts]
 
-        def curve(name: str, order: int) -> Any:
+        def curve(link: str, order: int) -> Any:
             scale = self.shaft_speed**order
-            return lambda theta: getattr(self.linkage.kept_motion(theta, 2), name) * scale
+            return lambda theta: getattr(self.linkage.kept_motion(theta, 2), link)[order] * scale
 
         curves = {
-            f"{link}_{rate}": curve(f"{link}_{rate}", order)
+            f"{link}_{rate}": curve(link, order)
             for link in ("input", "output")
             for order, rate in enumerate(("velocity", "acceleration"), start=1)
         }

@@ -80,7 +80,7 @@ def test_work_of_the_inertia_torque_is_gain_of_energy(start: float, end: float, 
     half = 0.5 * np.diff(edges)
     places = (0.5 * (edges[1:] + edges[:-1])[:, None] + half[:, None] * nodes).ravel()
     motion = linkage.motion(places, 2)
-    power = inertia_torque(linkage, motion, masses, speed) * motion.input_velocity
+    power = inertia_torque(linkage, motion, masses, speed) * motion.input.first
     work = np.cumsum(np.radians(half) * (power.reshape(48, 24) @ weights))
     energy = kinetic_energy(linkage, masses, speed, edges)
     gain = energy[1:] - energy[0]

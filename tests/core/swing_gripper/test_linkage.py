@@ -50,21 +50,21 @@ def test_positions_of_the_table(row: dict) -> None:
     motion = LINKAGE.motion(np.array([float(row["theta_deg"])]), 2)
     for key, angle in (
         ("beta_deg", motion.beta),
-        ("th1_deg", motion.input_angle),
-        ("th3_deg", motion.coupler_angle),
-        ("th4_deg", motion.output_angle),
+        ("th1_deg", motion.input.value),
+        ("th3_deg", motion.coupler.value),
+        ("th4_deg", motion.output.value),
     ):
         assert math.degrees(angle[0]) == pytest.approx(float(row[key]), rel=0.0, abs=8 * EPS * 180.0), key
     for key, rate in (
-        ("w1", motion.input_velocity),
-        ("w3", motion.coupler_velocity),
-        ("w4", motion.output_velocity),
+        ("w1", motion.input.first),
+        ("w3", motion.coupler.first),
+        ("w4", motion.output.first),
     ):
         assert rate[0] * OMEGA == pytest.approx(float(row[key]), rel=0.0, abs=16 * EPS * 12.0), key
     for key, rate in (
-        ("a1", motion.input_acceleration),
-        ("a3", motion.coupler_acceleration),
-        ("a4", motion.output_acceleration),
+        ("a1", motion.input.second),
+        ("a3", motion.coupler.second),
+        ("a4", motion.output.second),
     ):
         assert rate[0] * OMEGA**2 == pytest.approx(float(row[key]), rel=0.0, abs=64 * EPS * 380.0), key
     at_d, at_c = LINKAGE.transmission(LINKAGE.local_output(motion.beta))
@@ -102,19 +102,19 @@ def test_inverse_reading_up_to_the_jerk(name: str) -> None:
 def test_the_cam_rocker_drives_the_gripper_back() -> None:
     """Exchange: the forward four-bar, driven as the inverse one says, gives the law of the gripper."""
     motion = LINKAGE.motion(DEGREES, 2)
-    at_d = np.sin(motion.output_angle - motion.coupler_angle)
+    at_d = np.sin(motion.output.value - motion.coupler.value)
     assert (at_d > 0.0).all()
     state = fourbar_sweep.solve(
         LINKAGE.four_bar,
-        motion.input_angle - LINKAGE.frame_direction,
+        motion.input.value - LINKAGE.frame_direction,
         2,
-        velocity=motion.input_velocity,
-        acceleration=motion.input_acceleration,
+        velocity=motion.input.first,
+        acceleration=motion.input.second,
     )
-    assert apart(state.rocker_angle + LINKAGE.frame_direction, motion.output_angle).max() <= 16 * EPS * math.pi
-    assert apart(state.coupler_angle + LINKAGE.frame_direction, motion.coupler_angle).max() <= 16 * EPS * math.pi
-    assert np.abs(state.rocker_velocity - motion.output_velocity).max() <= 32 * EPS
-    assert np.abs(state.rocker_acceleration - motion.output_acceleration).max() <= 64 * EPS
+    assert apart(state.rocker_angle + LINKAGE.frame_direction, motion.output.value).max() <= 16 * EPS * math.pi
+    assert apart(state.coupler_angle + LINKAGE.frame_direction, motion.coupler.value).max() <= 16 * EPS * math.pi
+    assert np.abs(state.rocker_velocity - motion.output.first).max() <= 32 * EPS
+    assert np.abs(state.rocker_acceleration - motion.output.second).max() <= 64 * EPS
 
 
 def test_both_ways_agree_on_the_example() -> None:
@@ -133,8 +133,8 @@ def test_error_of_the_closed_form_is_its_distance_from_60_digits() -> None:
     assert found.max() > EPS / 2
     turned = LINKAGE.frame_direction
     for i, error in enumerate(found):
-        exact = exact_angles(links, float((motion.output_angle - turned + math.pi)[i]))
-        closed = (motion.coupler_angle - turned)[i], (motion.input_angle - turned - math.pi)[i]
+        exact = exact_angles(links, float((motion.output.value - turned + math.pi)[i]))
+        closed = (motion.coupler.value - turned)[i], (motion.input.value - turned - math.pi)[i]
         with mp.workdps(60):
             turns = [(mp.mpf(float(x)) - y) / (2 * mp.pi) for x, y in zip(closed, exact, strict=True)]
             off = max(float(abs(x - mp.nint(x)) * 2 * mp.pi) for x in turns)
@@ -147,7 +147,7 @@ def test_a_direction_of_another_turn_is_the_same_direction() -> None:
     for direction in (-250.0, 110.0):
         linkage = machine(links=links, output_direction=direction).linkage
         motion = linkage.motion(DEGREES, 0)
-        assert math.degrees(motion.output_angle[0]) == pytest.approx(110.0, abs=1e-12)
+        assert math.degrees(motion.output.value[0]) == pytest.approx(110.0, abs=1e-12)
         assert two_ways(linkage, motion).iterations.max() <= 4
 
 
@@ -164,8 +164,8 @@ def test_a_part_of_the_turn_is_part_of_the_same_motion() -> None:
         whole = linkage.motion(DEGREES, 0)
         for first in (97, 200):
             part = linkage.motion(DEGREES[first:], 0)
-            for name in ("input_angle", "coupler_angle", "output_angle"):
-                assert np.array_equal(getattr(part, name), getattr(whole, name)[first:])
+            for name in ("input", "coupler", "output"):
+                assert np.array_equal(getattr(part, name).value, getattr(whole, name).value[first:])
             assert two_ways(linkage, part).iterations.max() <= 4
 
 
@@ -209,34 +209,32 @@ def test_every_machine_is_refused_or_closes(links: tuple, direction: float, asse
     assert min(at_d.value, at_c.value) >= DEAD_POINT
     ways = two_ways(linkage, motion)
     assert ways.deviation.max() <= 256 * EPS / math.sin(at_c.value)
-    side = assembly * np.sin(motion.input_angle - motion.coupler_angle)
+    side = assembly * np.sin(motion.input.value - motion.coupler.value)
     assert side.min() > 0.0
-    far = np.sin(motion.output_angle - motion.coupler_angle)
+    far = np.sin(motion.output.value - motion.coupler.value)
     assert far.min() * far.max() > 0.0
-    c = linkage.input_pivot + linkage.input * np.exp(1j * motion.input_angle)
-    d = linkage.output_pivot + linkage.output * np.exp(1j * motion.output_angle)
-    loop = c + linkage.coupler * np.exp(1j * motion.coupler_angle) - d
+    c = linkage.input_pivot + linkage.input * np.exp(1j * motion.input.value)
+    d = linkage.output_pivot + linkage.output * np.exp(1j * motion.output.value)
+    loop = c + linkage.coupler * np.exp(1j * motion.coupler.value) - d
     assert np.abs(loop).max() <= 64 * EPS * 1000.0 / math.sin(at_c.value)
 
 
 @pytest.mark.parametrize("angle", [17.0, -120.5, 200.0])
 def test_turning_the_machine_turns_the_directions_alone(angle: float) -> None:
     one, other = LINKAGE.motion(DEGREES, 2), turned(angle, 40.0 - 300.0j).linkage.motion(DEGREES, 2)
-    for name in ("input_angle", "coupler_angle", "output_angle"):
-        difference = getattr(other, name) - getattr(one, name) - math.radians(angle)
-        assert apart(difference, 0.0).max() <= 32 * EPS * math.pi, name
-    for name in ("input_velocity", "coupler_velocity", "output_velocity"):
-        assert np.abs(getattr(other, name) - getattr(one, name)).max() <= 32 * EPS, name
-    for name in ("input_acceleration", "coupler_acceleration", "output_acceleration"):
-        assert np.abs(getattr(other, name) - getattr(one, name)).max() <= 128 * EPS, name
+    for name in ("input", "coupler", "output"):
+        first, second = getattr(one, name), getattr(other, name)
+        assert apart(second.value - first.value - math.radians(angle), 0.0).max() <= 32 * EPS * math.pi, name
+        assert np.abs(second.first - first.first).max() <= 32 * EPS, name
+        assert np.abs(second.second - first.second).max() <= 128 * EPS, name
 
 
 def test_the_mirror_image_turns_the_other_way() -> None:
     one, other = LINKAGE.motion(DEGREES, 2), mirrored().linkage.motion(DEGREES, 2)
-    for name in ("input_angle", "coupler_angle", "output_angle"):
-        assert apart(getattr(other, name), -getattr(one, name)).max() <= 4 * EPS * math.pi, name
-    for name in ("input_velocity", "coupler_velocity", "output_acceleration", "input_acceleration"):
-        assert np.abs(getattr(other, name) + getattr(one, name)).max() <= 16 * EPS, name
+    for name in ("input", "coupler", "output"):
+        assert apart(getattr(other, name).value, -getattr(one, name).value).max() <= 4 * EPS * math.pi, name
+    for name, order in (("input", 1), ("coupler", 1), ("output", 2), ("input", 2)):
+        assert np.abs(getattr(other, name)[order] + getattr(one, name)[order]).max() <= 16 * EPS, name
 
 
 def test_least_transmission_angles_against_a_fine_sweep() -> None:

@@ -121,7 +121,7 @@ def test_a_roller_that_is_moved_stays_on_its_cam(degrees: float) -> None:
 
     length = cams.section.roller.arm + off["arm"]
     place = brentq(lambda angle: abs(roller(angle) - pivot) - length, phi[0] - 0.05, phi[0] + 0.05, xtol=1e-15)
-    wanted = np.angle((roller(place) - pivot) * np.exp(-1j * (motion.input_angle[0] + np.radians(49.02))))
+    wanted = np.angle((roller(place) - pivot) * np.exp(-1j * (motion.input.value[0] + np.radians(49.02))))
     found = roller_contact(cams, motion, phi).turned(off)
     assert float(found[0, 0]) == pytest.approx(float(wanted), abs=1e-9)
     assert abs(wanted) > 1e-5

@@ -25,8 +25,8 @@ def gripper(**keys: Any) -> Any:
 
 def angles(design: Any, beta: float) -> tuple[float, float]:
     """Directions of cam rocker and coupler at a swing of the arm [rad]."""
-    found = design.linkage.at(np.zeros(1), (np.array([beta]),))
-    return float(found.input_angle[0]), float(found.coupler_angle[0])
+    found = design.linkage.at((np.array([beta]),))
+    return float(found.input.value[0]), float(found.coupler.value[0])
 
 
 def test_at_the_swing_of_the_stop_the_roller_clears_its_cam() -> None:
