@@ -541,10 +541,8 @@ def _locus(axes: Axes, title: str, x: Any, y: Any, color: str) -> None:
         axes.plot(chord.real, chord.imag, color=color, linewidth=0.7, linestyle=style.DOTTED, gid="jump")
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=9)
     panels.small_ticks(axes)
-    from gearlink.cli.views.figures.drawing.own import RoundNumbers
-
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(RoundNumbers(4))
+    panels.few_ticks(axes.xaxis, 4)
+    panels.few_ticks(axes.yaxis, 4)
     axes.tick_params(labelsize=7)
 
 

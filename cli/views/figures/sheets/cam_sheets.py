@@ -193,6 +193,12 @@ def keyway(bore: float) -> tuple[float, float] | None:
     return found[-1] if found and bore <= _LARGEST_BORE else None
 
 
+def bore_words(diameter: float) -> str:
+    """Diameter and fit of a bore, and its keyway on a line below where the standard has one."""
+    slot = keyway(diameter)
+    return f"⌀{diameter:g} H7" + (f"\nkeyway {slot[0]:g} P9, {diameter + slot[1]:g} over bore" if slot else "")
+
+
 def bore(radius: float, way: complex) -> Any:
     """Outline of the bore with its keyway, where the standard has one, in the direction of the start mark."""
     slot = keyway(2.0 * radius)

@@ -225,8 +225,7 @@ def _words(view: View, group: Sequence[Circle]) -> str:
     if circle.layer == "SHAFT" and not is_bore(circle, view.shape):
         return f"⌀{size(across)} shaft"
     if circle.layer == "SHAFT":
-        slot = cam_sheets.keyway(across)
-        return f"⌀{across:g} H7" + (f"\nkeyway {slot[0]:g} P9, {across + slot[1]:g} over bore" if slot else "")
+        return cam_sheets.bore_words(across)
     if circle.layer in ("RIM", "TIP_CIRCLE"):
         return f"⌀{across:.3f}"
     several = len(group) > 1

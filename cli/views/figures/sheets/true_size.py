@@ -318,9 +318,7 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
     if cam.roller_radius:
         paper.text(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center", path_effects=style.outlined())
     if shaft > 0.0:
-        slot = cam_sheets.keyway(2.0 * shaft)
-        key = f"\nkeyway {slot[0]:g} P9, {2.0 * shaft + slot[1]:g} over bore" if slot else ""
-        words = f"⌀{2.0 * shaft:g} H7{key}"
+        words = cam_sheets.bore_words(2.0 * shaft)
         taken = [complex(profile[k]) for k, _ in ends] + [roller]
         ways = np.exp(1j * _TURN * (np.arange(24) + 0.5) / 24)
         free = [min(abs(complex(way) - each / abs(each)) for each in taken) for way in ways.tolist()]
