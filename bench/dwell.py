@@ -137,7 +137,7 @@ def nested_search(r1: float, r3: float, r5: float, eccentricity: float) -> float
     """Frame length at which the least output speed of the turn is zero: a search over frames round one over angles."""
     from scipy.optimize import brentq, minimize_scalar
 
-    from gearlink.core.machines.three_gear.motion import GearTrain
+    from gearlink.core.machines.three_gear.train import GearTrain
     from gearlink.core.parts.linkages.fourbar import position as fourbar
     from gearlink.core.parts.linkages.fourbar.position import FourBar
 

@@ -52,7 +52,7 @@ def output_error(drive: Drive, crank_angle: Reals, torque_sign: int, errors: Err
         The eccentricity of a gear moves with the angle that is sought: steps of a contraction by e/r, to rest.
     Example
         >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
-        >>> from gearlink.core.machines.three_gear.motion import GearTrain
+        >>> from gearlink.core.machines.three_gear.train import (GearTrain)
         >>> linkage = FourBar(38.94178567, 112.0, 112.0, 153.53024891)
         >>> drive = Drive(linkage, GearTrain(40, 72, 40), math.radians(20.0), 40.0)
         >>> error = output_error(drive, np.array([math.radians(270.0)]), 1, Errors({"frame": np.array([0.01])}))

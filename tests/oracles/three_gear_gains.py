@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep

@@ -12,7 +12,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.momentary import eccentricity_range, momentary_linkage
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 

@@ -9,9 +9,9 @@ import pytest
 from oracles.unloading_limits import energy_parameter, invariants
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell import dwell_positions
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.momentary import momentary_frame_length, momentary_linkage
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.device import Pneumatic
 from gearlink.core.machines.wide_swing.law import ElasticLaw
@@ -69,7 +69,7 @@ def test_dwells_beside_the_momentary_one(factor: float, dwells: int) -> None:
     made = momentary_linkage(25.0, 25.0, 75.0, 16.0)
     frame = momentary_frame_length(25.0, 25.0, 75.0, 16.0) * factor
     linkage = FourBar(made.crank, made.coupler, made.rocker, frame, made.assembly)
-    assert len(dwell_positions(linkage, GearTrain(25.0, 25.0, 75.0))) == dwells
+    assert len(Output(linkage, GearTrain(25.0, 25.0, 75.0)).places) == dwells
 
 
 @pytest.mark.parametrize("alpha", [1e-150, 1e-12, 1e-6, 1e-4, math.radians(45.0), 1.5])

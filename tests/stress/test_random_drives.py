@@ -19,9 +19,9 @@ from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
-from gearlink.core.machines.three_gear import dwell as dwells
-from gearlink.core.machines.three_gear import motion
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.dwell import Output
+from gearlink.core.machines.three_gear.train import GearTrain
+from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.loop import closing_range
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from tests.oracles.three_gear_output import output_motion
@@ -43,12 +43,8 @@ FEW_KEYS = [21, pytest.param(max(1, MANY // 20), marks=pytest.mark.stress)]
 
 def scalar(design: Design, phi: float) -> tuple[float, ...]:
     """Angle, speed and acceleration by the formulas for one position."""
-    pair = design.linkage, design.train
-    return (
-        motion.output_angle(*pair, phi),
-        motion.output_speed(*pair, phi),
-        motion.output_acceleration(*pair, phi),
-    )
+    output = Output(design.linkage, design.train)
+    return output.angle(phi), output.speed(phi), output.acceleration(phi)
 
 
 def sweep(design: Design, phi: float) -> tuple[float, ...]:
@@ -94,7 +90,7 @@ def test_net_turns_of_whole_drives(count: int) -> None:
     drawn = designs(np.random.default_rng(22), count // 10)
     drives = Drives.three_gears(*arrays(drawn))
     gained = drives.turned(np.full(len(drawn), TURN)) / TURN
-    ratios = np.array([motion.mean_ratio(design.linkage, design.train) for design in drawn])
+    ratios = np.array([Output(design.linkage, design.train).mean_ratio for design in drawn])
     assert np.abs(gained / ratios - 1.0).max() <= 2.0 * EPS
 
 
@@ -111,19 +107,15 @@ def test_linkages_that_do_not_turn_are_no_drives(count: int) -> None:
         if linkage.kind() not in ("rocker-crank", "double-rocker"):
             continue
         kinds.add(linkage.kind())
-        for refused in (motion.check_linkage, lambda x, t=train: dwells.dwell_positions(x, t)):
+        for refused in (check_linkage, lambda x, t=train: Output(x, t).places):
             with pytest.raises(NoSolution):
                 refused(linkage)
         low, high = closing_range(linkage.reading)
         drawn.append(Design(linkage.kind(), linkage, train))
         phi.append(int(rng.choice((-1, 1))) * (low + (high - low) * float(rng.uniform(0.01, 0.99))))
     assert len(kinds) == 2
-    columns = np.array(
-        [
-            [f(design.linkage, design.train, x) for f in (motion.output_speed, motion.output_acceleration)]
-            for design, x in zip(drawn, phi, strict=True)
-        ]
-    ).T
+    outputs = [Output(design.linkage, design.train) for design in drawn]
+    columns = np.array([(o.speed(x), o.acceleration(x)) for o, x in zip(outputs, phi, strict=True)]).T
     names = [design.variant for design in drawn]
     drives = Drives.three_gears(*arrays(drawn))
     take_worst(worst, drives, np.array(phi), dict(zip(QUANTITIES[1:], columns, strict=True)), names, drawn)
@@ -191,14 +183,13 @@ class Analysed:
     """A drive with the names of a design: what `analyze` gives, from links and gears alone."""
 
     def __init__(self, design: Design) -> None:
-        pair = design.linkage, design.train
-        self.design, extremes = design, motion.speed_extremes(*pair)
-        self.speed_ratio_max, self.speed_ratio_min = extremes.greatest, extremes.least
-        self.dwell_crank_angles = dwells.dwell_positions(*pair)
+        output = Output(design.linkage, design.train)
+        self.design, self.speed_ratio_max, self.speed_ratio_min = design, output.speed_ratio_max, output.speed_ratio_min
+        self.dwell_crank_angles = output.places
         if len(self.dwell_crank_angles) == 2:
-            step = dwells.back_step(*pair)
+            step = output.back_step
             self.back_step_crank_angle, self.back_step_angle = step.crank_angle, step.angle
-            self.dwell_angle = dwells.dwell_angle(*pair, step)
+            self.dwell_angle = output.dwell_angle
 
     def __str__(self) -> str:
         return str(self.design)
@@ -286,7 +277,7 @@ def test_momentary_dwells_stand_still_where_they_say(count: int) -> None:
     """The minimum speed of the second way is zero to the last digits and lies at the crank angle of the standstill."""
     drawn, worst = designs(np.random.default_rng(27), count, ("momentary-dwell",)), Worst()
     for design, turn in zip(drawn, turns(Drives.three_gears(*arrays(drawn)), count), strict=True):
-        (place,) = dwells.dwell_positions(design.linkage, design.train)
+        (place,) = Output(design.linkage, design.train).places
         rest = abs(turn.drive.speed(turn.least)) / (EPS * turn.drive.condition("speed", turn.least))
         worst.take("speed left", float(rest), str(design))
         gap = abs(math.remainder(place - float(turn.least), 2.0 * math.pi))

@@ -13,7 +13,7 @@ from time import process_time
 import numpy as np
 import pytest
 
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.arrays import BLOCK
 from gearlink.core.parts.cams.profile import profile, translating
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep

@@ -30,9 +30,9 @@ from stress.worst import EPS, LONGER_NUMBERS, Worst
 
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.machines.three_gear.momentary import least_eccentricity
-from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric import dwell_angle
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.machines.wide_swing.device import Spring
 from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.parts.cams.profile import oscillating, profile, translating

@@ -19,11 +19,12 @@ from gearlink.cli.views.scenes.of_motion import Positions, Seen
 from gearlink.cli.views.scenes.scene import DWELL, STEP, TURN, Band, Reals, Scene, bands, fixed_circle
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.mechanism import OUTPUT, poles
-from gearlink.core.machines.three_gear.motion import output_angle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from gearlink.core.parts.linkages.standstills import Turning
 
 
 def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
@@ -126,7 +127,7 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
         room = 0.08 * window.width
         low, high = min(low, window.start - room), max(high, window.start + window.width + room)
     degrees = np.linspace(low, high, 401)
-    at_start = output_angle(design.linkage, design.train, math.radians(dwell.start))
+    at_start = design.output.angle(math.radians(dwell.start))
     output = OUTPUT.rates(design.moving, np.radians(degrees), 0)[0] - at_start
     panels.curves(axes, "crank angle [deg]", "output from its\nstandstill [deg]", "Dwell, magnified")
     axes.plot(degrees, np.degrees(output), color=style.BLUE, linewidth=1.6, gid="magnified")
@@ -183,7 +184,7 @@ def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: floa
     if found is None or window is None or design.output_tolerance is None:
         return
     start = math.radians(window.start)
-    shift = output_angle(design.linkage, design.train, start) - output_angle(design.linkage, design.train, found.start)
+    shift = design.output.angle(start) - design.output.angle(found.start)
     middle = math.degrees(found.output_angle + shift - at_start)
     band = math.degrees(design.output_tolerance)
     axes.fill_between(
@@ -202,7 +203,7 @@ def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
     axes.axhline(design.mean_ratio, color=style.GREY, linewidth=0.9, linestyle=style.DOTTED, label="mean")
     words = "Speed ratio", "output speed/\ncrank speed", "speed_ratio"
     linkage.rate(axes, design, *words, 1, mark=_mark, zero=style.BLACK, gid="speed-ratio")
-    _extremes(axes, design.speed_extremes)
+    _extremes(axes, design.output.fastest, design.output.slowest)
     panels.legend_above(axes, 3)
 
 
@@ -210,12 +211,12 @@ def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
     words = "Acceleration ratio", "output acceleration/\n(crank speed)²", "acceleration_ratio"
     look: Any = {"color": style.PURPLE, "zero": style.BLACK, "gid": "acceleration-ratio"}
     linkage.rate(axes, design, *words, 2, mark=_mark, **look)
-    _extremes(axes, design.acceleration_extremes)
+    _extremes(axes, design.output.hardest, design.output.hardest_back)
 
 
-def _extremes(axes: Axes, found: Any) -> None:
-    panels.extreme(axes, math.degrees(found.greatest_angle) % linkage.TURN, found.greatest, above=True)
-    panels.extreme(axes, math.degrees(found.least_angle) % linkage.TURN, found.least, above=False)
+def _extremes(axes: Axes, greatest: Turning, least: Turning) -> None:
+    panels.extreme(axes, math.degrees(greatest.place) % linkage.TURN, greatest.value, above=True)
+    panels.extreme(axes, math.degrees(least.place) % linkage.TURN, least.value, above=False)
     axes.margins(y=0.25)
 
 
@@ -251,7 +252,7 @@ def dwell_position(design: ThreeGearFourBar) -> tuple[float, str]:
         return design.back_step.start + 0.5 * design.back_step.crank_angle, "middle of the back-step"
     if places:
         return places[0], "momentary dwell"
-    return design.speed_extremes.least_angle, "minimum output speed"
+    return design.speed_ratio_min_at, "minimum output speed"
 
 
 def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:

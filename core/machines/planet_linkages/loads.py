@@ -66,8 +66,6 @@ class TwoGearLoads(PlanetLinkageLoads):
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The dwell: within the tolerance of the file, else within the band that the back-step fills."""
-        from gearlink.core.machines.planet_linkages.two_gear_family import tolerance_dwell
-
         step = self.design.back_step
         tolerance = None if step is None else 0.5 * step.angle
         if self.spec.dwell is not None and self.spec.dwell.tolerance is not None:
@@ -76,7 +74,7 @@ class TwoGearLoads(PlanetLinkageLoads):
             tolerance = self.design.output_tolerance
         if tolerance is None:
             return []
-        dwell = tolerance_dwell(self.design.drive, tolerance)
+        dwell = self.design.drive.within(tolerance)
         return [(dwell.start + 2.0 * math.pi * turn, dwell.crank_angle) for turn in range(self.turns)]
 
 

@@ -24,7 +24,7 @@ from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
+from gearlink.core.parts.linkages.standstills import OutputRates, Turning
 from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
@@ -357,15 +357,8 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
         target = self.spec.target
         return None if target is None else self.output_swing - math.radians(target.swing)
 
-    @cached_property
-    def speed_turnings(self) -> list[Turning]:
-        """Extremes of the output's speed ratio."""
-        return turnings(self.drive.speed, self.drive.acceleration)
-
-    @cached_property
-    def acceleration_turnings(self) -> list[Turning]:
-        """Extremes of its acceleration ratio."""
-        return turnings(self.drive.acceleration, self.drive.jerk)
+    speed_turnings: list[Turning] = placed("drive.speed_turnings")
+    acceleration_turnings: list[Turning] = placed("drive.acceleration_turnings")
 
     @property
     def min_transmission_angle(self) -> float:

@@ -241,27 +241,19 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
         """The kernel's view of gears and links."""
         return PlanetLinkage(self.linkage, self.gear_ratio, "crank")
 
-    @property
-    def mean_ratio(self) -> float:
-        """Net output turns per input turn."""
-        return self.drive.mean_ratio()
+    mean_ratio: float = placed("drive.mean_ratio")
+    speed_turnings: list[Turning] = placed("drive.speed_turnings")
+    acceleration_turnings: list[Turning] = placed("drive.acceleration_turnings")
 
     @cached_property
     def coupler_turnings(self) -> list[Turning]:
         """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
         return self.drive.coupler_turnings()
 
-    @cached_property
-    def speed_turnings(self) -> list[Turning]:
-        """Extremes of the speed ratio."""
-        return list(self.drive.turnings)
-
     @property
     def running(self) -> tuple[Any, Any, Any]:
-        """As `FeedResults.running`."""
-        way = math.copysign(1.0, self.mean_ratio)
-        turnings = [Turning(each.place, way * each.value) for each in self.speed_turnings]
-        return lambda phi: way * self.drive.speed(phi), lambda phi: way * self.drive.angle(phi), turnings
+        """As `FeedResults.running`; the mean motion is the crank's way."""
+        return self.drive.speed, self.drive.angle, self.speed_turnings
 
     @property
     def coupler_ratio_max(self) -> float:
@@ -272,11 +264,6 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     def coupler_ratio_min(self) -> float:
         """Minimum coupler speed per crank speed."""
         return min(t.value for t in self.coupler_turnings)
-
-    @cached_property
-    def acceleration_turnings(self) -> list[Turning]:
-        """Extremes of the acceleration ratio."""
-        return standstills.turnings(self.drive.acceleration, self.drive.jerk)
 
     back_step_time: float | None = per_time("back_step_crank_angle", -1)
 
@@ -340,10 +327,8 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
         Raises
             NoSolution - for a tolerance so wide that the whole revolution lies within it
         """
-        from gearlink.core.machines.planet_linkages.two_gear_family import tolerance_dwell
-
         with at_key("dwell_tolerance"):
-            return None if self.output_tolerance is None else tolerance_dwell(self.drive, self.output_tolerance)
+            return None if self.output_tolerance is None else self.drive.within(self.output_tolerance)
 
     tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
     tolerance_dwell_start: float | None = placed("tolerance_dwell.start")

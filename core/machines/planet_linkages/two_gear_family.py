@@ -27,10 +27,8 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
-from gearlink.core.parts.linkages import standstills
-from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, Valley, least_band, longest_in_band
+from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, least_band
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import BackStep, Turning, gain, regained
 
 _AT_CHANGE_POINT = 1e-10  # for limits of the teeth, which approach theirs with the root of this share
 
@@ -55,6 +53,7 @@ class Family:
         """Whether the output is a ring gear."""
         return self.ratio > 0.0
 
+    @lru_cache(maxsize=16)  # noqa: B019 - a back-step, its window and its valley look at the same ones
     def drive(self, frame: float) -> PlanetLinkage:
         """The drive of a frame [mm]."""
         linkage = FourBar(self.crank, self.coupler, self.rocker, frame, self.assembly)
@@ -194,7 +193,6 @@ def never(family: Family) -> str:
 _BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens
 _PROBES = (1e-3, 1e-2, 0.1)  # shares of the way to the momentary dwell at which a hump shows
 _PROBED = 1e-9
-_TURN = 2.0 * math.pi
 
 
 def stepping(family: Family) -> tuple[float, float]:
@@ -222,67 +220,18 @@ def quiet_end(family: Family) -> float:
     return high - margin if family.ring else low + margin
 
 
-@lru_cache(maxsize=16)  # a valley, its back-step and its window look at the same ones
-def turnings(drive: PlanetLinkage) -> tuple[Turning, ...]:
-    """Extremes of the speed ratio over the turn."""
-    return drive.turnings
-
-
-@lru_cache(maxsize=16)
-def back_step(drive: PlanetLinkage) -> BackStep | None:
-    """The back-step of an output that makes one, else None.
-
-    Notes
-        The angle of a short back-step is the integral of the speed, as it would cancel in the difference of angles.
-    """
-    places = standstills.standstills(drive.speed, turnings(drive), 0.0)
-    steps = standstills.back_steps(drive.speed, drive.angle, places)
-    if not steps:
-        return None
-    step = max(steps, key=lambda one: one.angle)
-    return step._replace(angle=-gain(drive, step.start, step.end))
-
-
-def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
-    """Longest crank interval over which the output stays within +- a tolerance [rad] of a place that is free.
-
-    Raises
-        NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
-    Notes
-        See `gearlink.core.parts.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
-    """
-    return longest_in_band(valley(drive), tolerance)
-
-
-def valley(drive: PlanetLinkage) -> Valley:
-    """The part of the turn around the minimum speed."""
-    extremes, step = turnings(drive), back_step(drive)
-    at = min(range(len(extremes)), key=lambda i: extremes[i].value)
-    least = extremes[at].place
-    before, after = extremes[at - 1].place, extremes[(at + 1) % len(extremes)].place
-    first = second = least
-    if step is not None:
-        first = least - (least - step.start) % _TURN
-        second = first + step.crank_angle
-    low, high = least - (least - before) % _TURN, least + (after - least) % _TURN
-    return Valley(drive, first, second, least, low, high, drive.mean_ratio())
-
-
 def back_step_of(drive: PlanetLinkage) -> float:
     """Measure: the back-step D [rad]."""
-    step = back_step(drive)
-    return 0.0 if step is None else step.angle
+    return 0.0 if drive.back_step is None else drive.back_step.angle
 
 
 def window_of(drive: PlanetLinkage) -> float:
     """Measure: the window over which the output stays within the band that its back-step fills [rad].
 
-    phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau; 0 without a back-step
+    0 without a back-step, or with one of rounding, at the momentary dwell itself
     """
-    step = back_step(drive)
-    if step is None or step.angle <= 0.0:  # one of rounding, at the momentary dwell itself
-        return 0.0
-    return regained(drive, step, backwards=True) + regained(drive, step) - step.crank_angle
+    found = drive.ripple if back_step_of(drive) > 0.0 else None
+    return 0.0 if found is None else found.crank_angle
 
 
 def solved(
@@ -358,7 +307,7 @@ def longest(family: Family, tolerance: float) -> tuple[float, float] | None:
     window = window_of(family.drive(filled))
 
     def reached(frame: float) -> float:
-        return tolerance_dwell(family.drive(frame), tolerance).crank_angle
+        return family.drive(frame).within(tolerance).crank_angle
 
     return _better(family, reached, filled, window) or (filled, window)
 
@@ -384,8 +333,8 @@ def flattest(family: Family, window: float, what: str, *, beyond: bool = False, 
     except NoSolution as error:
         if not beyond:
             raise
-        frame, least, refusal = steep, least_band(valley(family.drive(steep)), window), error
-    better = _better(family, lambda other: -least_band(valley(family.drive(other)), window), frame, -least)
+        frame, least, refusal = steep, least_band(family.drive(steep).valley, window), error
+    better = _better(family, lambda other: -least_band(family.drive(other).valley, window), frame, -least)
     if better is not None:
         return better[0], -better[1]
     if refusal is not None:
@@ -421,6 +370,6 @@ def always_stepping(family: Family) -> AlwaysStepping | None:
     if not family.ring or stationary_frames(family):
         return None
     low, high = sorted((steep_end(family), quiet_end(family)))
-    if back_step(family.drive(0.5 * (low + high))) is None:  # as many standstills as with every other frame
+    if family.drive(0.5 * (low + high)).back_step is None:  # as many standstills as with every other frame
         return None
-    return AlwaysStepping(lambda frame: valley(family.drive(frame)), low, high)
+    return AlwaysStepping(lambda frame: family.drive(frame).valley, low, high)

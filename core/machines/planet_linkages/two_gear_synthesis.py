@@ -349,7 +349,7 @@ class DwellSynthesis(TwoGearFourBar):
     def tolerance_dwell(self) -> ToleranceDwell | None:
         """The longest dwell within that tolerance."""
         tolerance = self.output_tolerance
-        return None if tolerance is None else kernel.tolerance_dwell(self.drive, tolerance)
+        return None if tolerance is None else self.drive.within(tolerance)
 
     @property
     def window_limit(self) -> float | None:
@@ -372,7 +372,7 @@ class DwellSynthesis(TwoGearFourBar):
         edge = kernel.filling(family, band) or kernel.stepping(family)[1]
 
         def spare(other: float) -> float:
-            return band - least_band(kernel.valley(family.drive(other)), window)  # one root, not two in each other
+            return band - least_band(family.drive(other).valley, window)  # one root, not two in each other
 
         def just(*ends: float) -> float:
             """Where the window is just as long, on the way from the design's frame to some ends; the last one else."""

@@ -38,10 +38,10 @@ from gearlink.core.machines.three_gear.codes import (
 )
 from gearlink.core.machines.three_gear.design import MESHES
 from gearlink.core.machines.three_gear.dwell_synthesis import MARGIN, PLAIN_TOLERANCE
-from gearlink.core.machines.three_gear.motion import tip_radius
 from gearlink.core.machines.three_gear.sweep import Drives, Valleys, longest_in_band, momentary_dwells, wrapped
 from gearlink.core.machines.three_gear.symmetric import dwell_angle_limit, window_limit
 from gearlink.core.machines.three_gear.synthesis import GREATEST_IDLER, LEAST_IDLER
+from gearlink.core.machines.three_gear.train import tip_radius
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.parts.gears.train.unshifted import MOST_TEETH, Mesh, UnshiftedMeshes

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear import symmetric
-from gearlink.core.machines.three_gear.dwell import tolerance_dwell
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.dwell import Output
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 
@@ -213,7 +213,7 @@ def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
 
     def window(ratio: float) -> float:
         linkage, train = symmetric.symmetric_linkage(ratio, 1.0), GearTrain(1.0, -i3, 1.0)
-        return tolerance_dwell(linkage, train, FRAME_TOLERANCE).crank_angle
+        return Output(linkage, train).within(FRAME_TOLERANCE).crank_angle
 
     return _each(window, frame_ratio)
 

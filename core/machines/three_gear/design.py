@@ -15,11 +15,10 @@ from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.three_gear import dwell as dwells
-from gearlink.core.machines.three_gear import motion
 from gearlink.core.machines.three_gear.codes import ratio_judged, tolerance_judged
 from gearlink.core.machines.three_gear.dwell import ByRoots, Output
 from gearlink.core.machines.three_gear.momentary import crank_with_room
-from gearlink.core.machines.three_gear.motion import Extremes, GearTrain, idler_for_ratio, tip_radius
+from gearlink.core.machines.three_gear.train import GearTrain, gear_gap, idler_for_ratio, tip_radius
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
@@ -29,7 +28,7 @@ from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.parts.linkages.standstills import BackStep, Turning, turnings
+from gearlink.core.parts.linkages.standstills import BackStep, OutputRates, Turning
 from gearlink.core.studies.clearance import (
     FULL_HEIGHT,
     SHAFT_WAYS,
@@ -152,7 +151,7 @@ WAYS = {
 }
 
 
-class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
+class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     """A three-gear four-bar of given links, or of those that the `task` of a synthesis finds."""
 
     kind = "three-gear-four-bar"
@@ -294,21 +293,9 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
 
     frame_ratio: float = placed("output.frame_ratio")
 
-    @cached_property
-    def mean_ratio(self) -> float:
-        """Net output turns per input turn."""
-        return motion.mean_ratio(self.linkage, self.train)
-
-    speed_extremes: Extremes = placed("output.speed_extremes")
-    acceleration_extremes: Extremes = placed("output.acceleration_extremes")
-    speed_ratio_max: float = placed("speed_extremes.greatest")
-    speed_ratio_min: float = placed("speed_extremes.least")
-    speed_ratio_max_at: float = placed("speed_extremes.greatest_angle")
-    speed_ratio_min_at: float = placed("speed_extremes.least_angle")
-    acceleration_ratio_max: float = placed("acceleration_extremes.greatest")
-    acceleration_ratio_max_at: float = placed("acceleration_extremes.greatest_angle")
-    acceleration_ratio_min: float = placed("acceleration_extremes.least")
-    acceleration_ratio_min_at: float = placed("acceleration_extremes.least_angle")
+    mean_ratio: float = placed("output.mean_ratio")
+    speed_turnings: list[Turning] = placed("output.speed_turnings")
+    acceleration_turnings: list[Turning] = placed("output.acceleration_turnings")
 
     back_step_time: float | None = per_time("back_step_crank_angle", -1)
     dwell_time: float | None = per_time("dwell_angle", -1)
@@ -398,7 +385,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
             return None
         if self.own_teeth:
             return self.layout.gear_pairs[0].gap
-        return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
+        return gear_gap(self.linkage, self.train, self.spec.gears.module)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, transmission angle over a revolution of the crank."""
@@ -462,28 +449,11 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
         r1, r3, r5 = (0.5 * gears.module * teeth for teeth in (train.crank, train.idler, train.output))
         return [(r1, r3, tangent), (r3, r5, tangent)]
 
-    def _forwards(self, phi: float) -> float:
-        """Speed ratio in the sense of the mean motion."""
-        return self._way * motion.output_speed(self.linkage, self.train, phi)
-
-    def _turned(self, phi: float) -> float:
-        return self._way * motion.output_angle(self.linkage, self.train, phi)
-
-    @property
-    def _way(self) -> float:
-        return math.copysign(1.0, self.mean_ratio)
-
-    @cached_property
-    def _speed_turnings(self) -> list[Turning]:
-        def bend(phi: float) -> float:
-            return self._way * motion.output_acceleration(self.linkage, self.train, phi)
-
-        return turnings(self._forwards, bend)
-
     @property
     def running(self) -> tuple[Any, Any, Any]:
         """As `FeedResults.running`."""
-        return self._forwards, self._turned, self._speed_turnings
+        ahead = self.output.ahead
+        return ahead.speed, ahead.angle, self.output.ahead_turnings
 
     @cached_property
     def even_stretch(self) -> Uniform | None:
@@ -493,7 +463,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, WithShafts, Meshed):
             return None
         from gearlink.core.machines.three_gear.families import uniform
 
-        return uniform(self._forwards, self._speed_turnings, share)
+        return uniform(self.output.ahead.speed, self.output.ahead_turnings, share)
 
     @property
     def uniform_tolerance(self) -> float | None:

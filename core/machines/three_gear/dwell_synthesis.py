@@ -15,14 +15,12 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.codes import back_step_judged
 from gearlink.core.machines.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar, given_tolerance
-from gearlink.core.machines.three_gear.dwell import tolerance_dwell, valley
-from gearlink.core.machines.three_gear.momentary import wrap
-from gearlink.core.machines.three_gear.motion import GearTrain, forward, output_angle
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.synthesis import LEAST_IDLER, TABLES, FamilyTask, candidates_table, with_analysis
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.parts.linkages.band_dwell import (
     AlwaysStepping,
     ToleranceDwell,
-    Valley,
     band_of_window,
     flattest_of,
     keeping,
@@ -183,7 +181,7 @@ class DwellTask(FamilyTask):
 
     def _of_equal_ripple(self, family: Family, train: GearTrain) -> FourBar:
         """The linkage whose back-step fills the band, or a band over the window."""
-        from gearlink.core.machines.three_gear.families import ripple, solved, window_of
+        from gearlink.core.machines.three_gear.families import solved, window_of
 
         if self.window is None:
             return self._fills(family, train)
@@ -195,7 +193,7 @@ class DwellTask(FamilyTask):
         except NoSolution:
             self._refuse_short_reach(family, train)  # which names the longest within the tolerance
             raise
-        self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
+        self._refuse_narrow_band(family, train, linkage)
         return linkage
 
     # Where the output steps back with every frame, and further than the band is wide
@@ -247,7 +245,7 @@ class DwellTask(FamilyTask):
         band, window = self.band, self.window
         if band is None or window is None:
             return
-        from gearlink.core.machines.three_gear.families import filling, ripple
+        from gearlink.core.machines.three_gear.families import filling, window_of
 
         try:
             filled = filling(family, train, band)
@@ -255,7 +253,7 @@ class DwellTask(FamilyTask):
             return  # every back-step of this family is wider
         if filled is None:
             return
-        longest = ripple(filled, train).crank_angle
+        longest = window_of(train)(filled)
         if longest < window * (1.0 - _ROUNDING):
             most = safely_below(math.degrees(longest))
             fix = f"set dwell.window to at most {most} deg"
@@ -263,15 +261,16 @@ class DwellTask(FamilyTask):
                 fix += f", with an idler of {train.idler:g} teeth where the limits allow it"
             raise NoSolution(f"{self._asked(band)} (limit <= {most} deg with these gears)", fix=fix)
 
-    def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:
+    def _refuse_narrow_band(self, family: Family, train: GearTrain, found: FourBar) -> None:
+        from gearlink.core.machines.three_gear.families import back_step_of, filling, window_of
+
         band = self.band
-        if band is None or least <= band:
+        if band is None or (least := 0.5 * back_step_of(train)(found)) <= band:
             return
-        from gearlink.core.machines.three_gear.families import filling, ripple
 
         filled = filling(family, train, band)
         assert filled is not None  # a back-step of twice the minimum is wider than the band
-        longest = ripple(filled, train).crank_angle
+        longest = window_of(train)(filled)
         raise NoSolution(
             (
                 f"{self._asked(band)} (limit <= {safely_below(math.degrees(longest))} deg with these gears, or "
@@ -301,11 +300,7 @@ def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
     if back_step_of(train)(family.linkage(0.5 * (low + high))) <= 0.0:
         return None
 
-    def valley_of(frame: float) -> Valley:
-        linkage = family.linkage(frame)
-        return valley(linkage, forward(linkage, train))
-
-    return AlwaysStepping(valley_of, low, high)
+    return AlwaysStepping(lambda frame: Output(family.linkage(frame), train).valley, low, high)
 
 
 class DwellSynthesis(ThreeGearFourBar):
@@ -410,16 +405,8 @@ class DwellSynthesis(ThreeGearFourBar):
         if self.task.tolerance is not None or step is None:
             return super().tolerance_dwell
         if self._narrower is not None:
-            return tolerance_dwell(self.linkage, self.train, self._narrower)
-        if self.task.general:
-            from gearlink.core.machines.three_gear.families import ripple
-
-            found = ripple(self.linkage, self.train)
-            return ToleranceDwell(found.start, found.crank_angle, found.output_angle)
-        phi13 = symmetric.dwell_angle(self.i3, step.crank_angle)
-        start = wrap(step.start - (phi13 - step.crank_angle))
-        middle = output_angle(self.linkage, self.train, start) + 0.5 * step.angle
-        return ToleranceDwell(start, 2.0 * phi13 - step.crank_angle, middle)
+            return self.output.within(self._narrower)
+        return self.output.ripple
 
     @cached_property
     def window_limit(self) -> float | None:
@@ -434,10 +421,10 @@ class DwellSynthesis(ThreeGearFourBar):
                 return symmetric.longest_window(self.i3, band)
         if self._frames is not None and self._frames.least_step[1] > 2.0 * band:
             return self._frames.longest(band)[1]
-        from gearlink.core.machines.three_gear.families import filling, ripple
+        from gearlink.core.machines.three_gear.families import filling, window_of
 
         filled = filling(self.task.family(self.idler_teeth), self.train, band)
-        return None if filled is None else ripple(filled, self.train).crank_angle
+        return None if filled is None else window_of(self.train)(filled)
 
     @cached_property
     def frame_ratio_interval(self) -> list[float] | None:

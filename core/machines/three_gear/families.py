@@ -28,7 +28,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike, within
-from gearlink.core.machines.three_gear.dwell import back_step, course, dwell_angle, valley
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     eccentricity_for_frame,
@@ -38,12 +38,11 @@ from gearlink.core.machines.three_gear.momentary import (
     momentary_frame_length,
     ring_tangency,
     shape,
-    wrap,
 )
-from gearlink.core.machines.three_gear.motion import GearTrain, forward, output_angle, speed_extremes
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import BackStep, Turning, regained
+from gearlink.core.parts.linkages.standstills import Turning
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.design import ThreeGearFourBar
@@ -88,21 +87,6 @@ class Family:
     def _inside(self, low: float, margin: float) -> tuple[float, float]:
         width = self.high - low
         return low + margin * width, self.high - _BEFORE_HIGH * width
-
-
-@dataclass(frozen=True, slots=True)
-class Ripple:
-    """A dwell whose band the back-step fills.
-
-    start, crank_angle : float [rad] - where the window starts, in [0, 2 pi), and its length
-    tolerance : float [rad] - half the band
-    output_angle : float [rad] - the middle of the band, counted from the crank angle 0 with the start as it stands
-    """
-
-    start: float
-    crank_angle: float
-    tolerance: float
-    output_angle: float
 
 
 def frames_of(crank: float, b: float, c: float) -> tuple[float, float]:
@@ -270,9 +254,8 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float, maxim
     """
 
     def reached(x: float) -> float:
-        linkage = family.linkage(x)
-        found = speed_extremes(linkage, forward(linkage, train))
-        return found.least / found.greatest
+        values = [each.value for each in Output(family.linkage(x), train).ahead_turnings]
+        return min(values) / max(values)
 
     low, high = family.ends()
     most, least = reached(low), reached(high)
@@ -289,55 +272,32 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float, maxim
     return family.linkage(bracketed_root(lambda x: reached(x) - quotient, low, high, ends=ends))
 
 
-def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
-    """The window over which the output stays within the band that its back-step fills.
-
-    phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau
-
-    Raises
-        NoSolution - where the output does not step back
-    Example
-        >>> found = ripple(FourBar(18.0, 50.0, 100.0, 120.79635262063678), GearTrain(20, 20, 60))
-        >>> round(math.degrees(found.crank_angle), 6), round(math.degrees(found.tolerance), 6)
-        (108.824649, 0.5)
-    """
-    given, train = train, forward(linkage, train)
-    step = back_step(linkage, train)
-    end = step.start + step.crank_angle
-    before = regained(course(linkage, train), step, backwards=True)
-    after = dwell_angle(linkage, train, step)
-    start = wrap(end - before)
-    middle = output_angle(linkage, train, start) + 0.5 * step.angle
-    return Ripple(start, before + after - step.crank_angle, 0.5 * step.angle, given.sense * train.sense * middle)
-
-
 def back_step_of(train: GearTrain) -> Callable[[FourBar], float]:
     """Measure: the back-step D [rad]."""
-    return _measure(train, lambda _, step: step.angle)
+    return _measure(train, lambda output: output.back_step.angle)
 
 
 def back_step_crank_angle_of(train: GearTrain) -> Callable[[FourBar], float]:
     """Measure: the crank angle phi12 [rad] of the back-step."""
-    return _measure(train, lambda _, step: step.crank_angle)
+    return _measure(train, lambda output: output.back_step.crank_angle)
 
 
 def dwell_angle_of(train: GearTrain) -> Callable[[FourBar], float]:
     """Measure: phi13 [rad]."""
-    return _measure(train, lambda linkage, step: dwell_angle(linkage, train, step))
+    return _measure(train, lambda output: output.dwell_angle)
 
 
 def window_of(train: GearTrain) -> Callable[[FourBar], float]:
     """Measure: the window of equal ripple [rad]."""
-    return _measure(train, lambda linkage, _: ripple(linkage, train).crank_angle)
+    return _measure(train, lambda output: output.ripple.crank_angle)
 
 
-def _measure(train: GearTrain, of_step: Callable[[FourBar, BackStep], float]) -> Callable[[FourBar], float]:
+def _measure(train: GearTrain, of_stepping: Callable[[Any], float]) -> Callable[[FourBar], float]:
     def measure(linkage: FourBar) -> float:
-        try:
-            step = back_step(linkage, train)
-        except NoSolution:
-            return 0.0
-        return of_step(linkage, step)
+        output = Output(linkage, train)
+        with suppress(NoSolution):
+            return 0.0 if output.back_step is None else of_stepping(output)
+        return 0.0
 
     return measure
 
@@ -403,8 +363,7 @@ def met_between(
     from gearlink.core.parts.linkages.band_dwell import least_band
 
     def spare(x: float) -> float:  # falls with the band that the window takes: one root, not two in each other
-        linkage = family.linkage(x)
-        return band - least_band(valley(linkage, forward(linkage, train)), window)
+        return band - least_band(Output(family.linkage(x), train).valley, window)
 
     filled = length(filling(family, train, band) or family.linkage(family.stepping()[1]))
     end = family.ends()[0]

@@ -24,14 +24,16 @@ one for sigma = -1, a ring gear 5 round the whole train.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.wording import short, unlike, within
-from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_speed
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.parts.linkages.fourbar.position import FourBar
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.linkages.geared_output import GearedOutput
 
 _NEWTON_STEPS = 4
 _ZERO = 1e-11  # speed ratio at a standstill, of the terms that cancel there
@@ -526,14 +528,13 @@ def ring_tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tange
     return Tangency(math.sqrt(square), math.sqrt(x2), found.facing * sine, found.offset)
 
 
-def ring_standstills(linkage: FourBar, train: GearTrain, radii: tuple[float, float, float]) -> list[float]:
+def ring_standstills(output: GearedOutput, radii: tuple[float, float, float]) -> list[float]:
     """Crank angles of both standstills of an output with an internal mesh, or none.
 
     phi = atan2(-r1 s, -w) - atan2(-r5 s, S x - w),   w = (P X + g)/(2 S x),   s = sign((r1 + r3)(r3 + r5)) sqrt(1 - X)
 
     Parameters
-        linkage : FourBar [mm]
-        train : GearTrain
+        output : GearedOutput
         radii : r1, r3, r5, signed [mm]
     Returns
         places : list of float [rad] - ascending in [0, 2 pi)
@@ -541,7 +542,7 @@ def ring_standstills(linkage: FourBar, train: GearTrain, radii: tuple[float, flo
         Each root of the quadratic is followed by Newton steps on the speed ratio, which take out what cancels where
         both roots are near each other: always so for S near 0, a ring output with coupler and rocker of equal length.
     """
-    r1, r3, r5 = radii
+    linkage, (r1, r3, r5) = output.linkage, radii
     s, facing = r1 + 2.0 * r3 + r5, math.copysign(1.0, (r1 + r3) * (r3 + r5))
     h = (linkage.crank - r1) * (linkage.crank + r1)
     found: list[float] = []
@@ -551,7 +552,7 @@ def ring_standstills(linkage: FourBar, train: GearTrain, radii: tuple[float, flo
             continue
         for w in (math.sqrt(square), -math.sqrt(square)):
             start = crank_angle(r1, r5, reach, w, facing * math.sqrt(1.0 - x2), linkage.assembly)
-            place = _polished(linkage, train, start)
+            place = _polished(output, start)
             if place is not None and all(abs(math.remainder(place - other, math.tau)) > _APART for other in found):
                 found.append(place)
     return sorted(found) if len(found) == 2 else []
@@ -575,12 +576,11 @@ def _roots(linkage: FourBar, radii: tuple[float, float, float]) -> list[float]:
     return [x for x in found if 0.0 < x < 1.0]
 
 
-def _polished(linkage: FourBar, train: GearTrain, place: float) -> float | None:
+def _polished(output: GearedOutput, place: float) -> float | None:
     """The standstill that Newton steps reach from a place near it; None from a place that is none."""
-    size = abs(train.ratio) + abs(train.coupler_share) + abs(train.rocker_share)
+    size = abs(output.train.ratio) + abs(output.train.coupler_share) + abs(output.train.rocker_share)
     for _ in range(_NEWTON_STEPS):
-        speed = output_speed(linkage, train, place)
-        slope = output_acceleration(linkage, train, place)
+        speed, slope = output.speed(place), output.acceleration(place)
         if slope == 0.0 or abs(speed) > 0.1 * size:
             return None
         step = speed / slope
@@ -589,7 +589,7 @@ def _polished(linkage: FourBar, train: GearTrain, place: float) -> float | None:
         place -= step
         if abs(step) <= 1e-15:
             break
-    return wrap(place) if abs(output_speed(linkage, train, place)) <= _ZERO * size else None
+    return wrap(place) if abs(output.speed(place)) <= _ZERO * size else None
 
 
 def _ring_balanced_eccentricity(r1: float, r3: float, r5: float) -> float:

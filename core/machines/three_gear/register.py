@@ -21,7 +21,7 @@ from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.torsion import torsional_stiffness
-from gearlink.core.machines.three_gear import motion, sweep
+from gearlink.core.machines.three_gear import sweep
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.dwell import STANDSTILL_TOLERANCE, ByRoots
 from gearlink.core.machines.three_gear.dwell_synthesis import DwellSynthesis
@@ -218,7 +218,7 @@ class ThreeGearSamples:
 
     def _off(self, samples: DriveSamples, phi: float) -> Reals:
         """Output angle of the drives at a crank angle of the machine, less that of the nominal one."""
-        nominal = motion.output_angle(self.nominal.linkage, samples.train, phi)
+        nominal = samples.ahead.angle(phi)
         off: Reals = samples.counted * (samples.angle_at(phi - samples.frame_turn) - nominal)
         return off
 
@@ -453,7 +453,7 @@ class TolerancedDrive(ThreeGearFourBar):
         start, length = self.window
         inside = [start + (place - start) % _TURN for place in self.dwell_crank_angles]
         places = [start, start + length, *(place for place in inside if place < start + length)]
-        angles = [motion.output_angle(self.linkage, self.train, place) for place in places]
+        angles = [self.output.angle(place) for place in places]
         return 0.5 * (max(angles) - min(angles))
 
 
@@ -484,14 +484,14 @@ class DriveSamples:
         self.nominal, self.lengths = nominal, lengths
         self.count = lengths[0].size
         self.frame_turn = np.broadcast_to(frame_turn, (self.count,))
-        self.train = motion.forward(nominal.linkage, nominal.train)
-        self.counted = nominal.train.sense * self.train.sense  # -1 where the file counts the output backward
+        self.ahead = nominal.output.ahead
+        self.counted = 1 if self.ahead is nominal.output else -1  # -1 where the file counts the output backward
         self.unsettled: Mask = np.zeros(self.count, dtype=bool)
 
     @cached_property
     def drives(self) -> sweep.Drives:
         """Linkages and gears."""
-        train = self.train
+        train = self.ahead.train
         shares = train.ratio, train.coupler_share, train.rocker_share
         return sweep.drives_of(self.lengths, self.nominal.spec.assembly, *shares)
 
@@ -516,21 +516,18 @@ class DriveSamples:
         self.unsettled |= ~rests | ~(np.abs(found - place) < _MOST_OFF)
         return value, found
 
-    @cached_property
-    def _extremes(self) -> motion.Extremes:
-        """Of the nominal drive's speed, the output counted in the direction of its mean motion."""
-        found = self.nominal.speed_extremes
-        if self.counted > 0:
-            return found
-        return motion.Extremes(-found.least, found.least_angle, -found.greatest, found.greatest_angle)
+    @property
+    def _slowest_first(self) -> list[float]:
+        """Where the nominal drive's speed is extreme, the output counted in the direction of its mean motion."""
+        return [each.place for each in sorted(self.nominal.output.ahead_turnings, key=lambda each: each.value)]
 
     @cached_property
     def _least(self) -> tuple[Reals, Reals]:
-        return self._extreme(self._extremes.least_angle, -1.0)
+        return self._extreme(self._slowest_first[0], -1.0)
 
     @cached_property
     def _greatest(self) -> tuple[Reals, Reals]:
-        return self._extreme(self._extremes.greatest_angle, 1.0)
+        return self._extreme(self._slowest_first[-1], 1.0)
 
     @property
     def speed_ratio_min(self) -> Reals:
@@ -544,8 +541,8 @@ class DriveSamples:
 
     def _acceleration_extreme(self, place: float) -> Reals:
         """Of the parabola about a place where the next step, with the nominal drive's slope of the jerk, is small."""
-        linkage, h = self.nominal.linkage, 1e-4
-        jerks = [motion.output_jerk(linkage, self.train, place + side) for side in (-h, h)]
+        h = 1e-4
+        jerks = [self.ahead.jerk(place + side) for side in (-h, h)]
         slope = (jerks[1] - jerks[0]) / (2.0 * h)
         phi, value, live = np.full(self.count, place), np.full(self.count, np.nan), np.arange(self.count)
         for _ in range(_MOST_STEPS):
@@ -563,12 +560,12 @@ class DriveSamples:
     @cached_property
     def acceleration_ratio_max(self) -> Reals:
         """Maximum acceleration ratio [1/rad]."""
-        return self._acceleration_extreme(self.nominal.acceleration_extremes.greatest_angle)
+        return self._acceleration_extreme(self.nominal.acceleration_ratio_max_at)
 
     @cached_property
     def acceleration_ratio_min(self) -> Reals:
         """Minimum acceleration ratio [1/rad]."""
-        return self._acceleration_extreme(self.nominal.acceleration_extremes.least_angle)
+        return self._acceleration_extreme(self.nominal.acceleration_ratio_min_at)
 
     @cached_property
     def nonuniformity(self) -> Reals:
@@ -592,7 +589,7 @@ class DriveSamples:
             return first, second
         drives = self.drives if some.size == self.count else self.drives.part(some)
         # any place between the second standstill and the first of the next revolution ends the brackets
-        fast = np.full(some.size, self._extremes.greatest_angle)
+        fast = np.full(some.size, self._slowest_first[-1])
         self.unsettled[some] |= ~(sweep.speed(fast, drives, 1)[0] > 0.0)
         first[some], second[some] = sweep.around(least[some], fast, drives)
         return first, second
@@ -763,7 +760,7 @@ class ThreeGearRegister(RegisterDesign):
         assert self.output_torque is not None
         assert self.section.stiffness is not None
         torque = np.array([self.output_torque(float(phi)) for phi in input_angle])
-        counted = self._ahead.sense * self.design.train.sense
+        counted = self.design.output.ahead.train.sense * self.design.train.sense
         gain = -counted * self.radius * torque / torsional_stiffness(self.section.stiffness)
         return Contribution("wind-up of the output shaft", gain, 1.0, 0.0, mean=1.0)
 
@@ -789,11 +786,6 @@ class ThreeGearRegister(RegisterDesign):
             return not section.friction and not section.load
         return self.spec.input_speed is None
 
-    @property
-    def _ahead(self) -> motion.GearTrain:
-        """The train with its output counted in the direction of its mean motion."""
-        return motion.forward(self.design.linkage, self.design.train)
-
     @cached_property
     def output_torque(self) -> Any:
         """Torque on the output in its forward sense [N m] over the crank angle; None where the file has nothing of it.
@@ -801,7 +793,7 @@ class ThreeGearRegister(RegisterDesign):
         T = J W' w^2 + T_f sign(W) + T_load
         """
         section, speed = self.section, self.spec.input_speed
-        design, train = self.design, self._ahead
+        ahead = self.design.output.ahead
         if section.output_inertia is None and not section.friction and not section.load:
             return None
         if speed is None and section.output_inertia is not None:
@@ -809,19 +801,16 @@ class ThreeGearRegister(RegisterDesign):
         inertia = 0.0 if speed is None else (section.output_inertia or 0.0) * (speed * math.pi / 30.0) ** 2
 
         def torque(phi: float) -> float:
-            speed_ratio = motion.output_speed(design.linkage, train, phi)
+            speed_ratio = ahead.speed(phi)
             friction = math.copysign(section.friction, speed_ratio) if speed_ratio else 0.0
-            return inertia * motion.output_acceleration(design.linkage, train, phi) + friction + section.load
+            return inertia * ahead.acceleration(phi) + friction + section.load
 
         return torque
 
     @cached_property
     def flips(self) -> list[float] | None:
         """Crank angles at which the output's torque turns [rad]; by inertia alone where W' does."""
-        design = self.design
-        if self._by_inertia_alone:
-            return zeros_over_turn(lambda phi: motion.output_acceleration(design.linkage, design.train, phi))
-        return zeros_over_turn(self.output_torque)
+        return zeros_over_turn(self.design.output.acceleration if self._by_inertia_alone else self.output_torque)
 
     @property
     def judges_flips(self) -> bool:
@@ -834,7 +823,6 @@ class ThreeGearRegister(RegisterDesign):
         section, speed = self.section, self.spec.input_speed
         if self.design.motion == "back-step" or section.output_inertia is None or speed is None:
             return "brake the output, or preload the gears"
-        extremes = self.design.acceleration_extremes
         rate = speed * math.pi / 30.0
-        most = section.output_inertia * rate * rate * max(abs(extremes.greatest), abs(extremes.least))
+        most = section.output_inertia * rate * rate * max(abs(t.value) for t in self.design.acceleration_turnings)
         return f"a friction torque above {most:.4g} N m on the output keeps the sign"

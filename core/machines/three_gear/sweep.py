@@ -1,6 +1,6 @@
 """Motion of three-gear four-bars of any teeth for arrays of designs: speeds, standstills, back-step, dwells.
 
-The formulas are those of `linkages.fourbar.loop`, `motion`, `momentary` and `dwell`, which take arrays. Searches stand
+The formulas are those of `linkages.fourbar.loop`, `momentary` and `dwell`, which take arrays. Searches stand
 here: Newton's, where each design that rests is frozen, so that its last bit does not depend on its neighbours.
 
 The longest dwell within a tolerance is that of `linkages.band_dwell`.
@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.dwell import standing
 from gearlink.core.machines.three_gear.momentary import angle_of_poles, pole_lengths, touching
-from gearlink.core.machines.three_gear.motion import blend
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_roots
@@ -33,6 +32,7 @@ from gearlink.core.parts.linkages.band_dwell import (
 )
 from gearlink.core.parts.linkages.fourbar.loop import make_reading, rates, triangle
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
+from gearlink.core.parts.linkages.geared_output import blend
 
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40  # of a search for an extreme [rad]
@@ -171,7 +171,7 @@ def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals
     Parameters
         radii : (N,) arrays [mm] - reference radii of crank gear, idler and output gear
     Source
-        as `dwell.dwell_positions`
+        as `dwell.Output.places`
     """
     r1, r3, r5 = radii
     a, d = links.a, links.d
@@ -212,7 +212,7 @@ def wrapped(angle: Any) -> Reals:
 
 
 def back_step(low: Reals, high: Reals, links: Drives) -> tuple[Reals, Reals, Reals]:
-    """Start, crank angle and size of the back-step between two standstills [rad], as `dwell.back_step`."""
+    """Start, crank angle and size of the back-step between two standstills [rad], as `GearedOutput.back_step`."""
     falls = speed(low, links, 2)[1] <= 0.0
     start, end = np.where(falls, low, high), np.where(falls, high, low)
     width = wrapped(end - start)
@@ -220,7 +220,7 @@ def back_step(low: Reals, high: Reals, links: Drives) -> tuple[Reals, Reals, Rea
 
 
 def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
-    """phi13 [rad]: the crank angle from the start until the output has regained its place, as `dwell.dwell_angle`."""
+    """phi13 [rad]: the crank angle from the start until the output is back, as `GearedOutput.dwell_angle`."""
     level = links.angle(start)
 
     def gained(x: Reals, start: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:

@@ -29,19 +29,23 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear.dwell import Output
-from gearlink.core.machines.three_gear.motion import Extremes, GearTrain
+from gearlink.core.machines.three_gear.momentary import wrap
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import BackStep
+from gearlink.core.parts.linkages.standstills import BackStep, Turning
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
 
 # tan h: the closed form then loses no more than 12 ulp, and the 29th term is below 1e-17 of the first.
 _SERIES_BELOW = 0.5
@@ -825,17 +829,17 @@ class SymmetricOutput(Output):
         return 1.5 * math.pi if self.linkage.assembly == 1 else 0.5 * math.pi
 
     @cached_property
-    def speed_extremes(self) -> Extremes:
+    def speed_turnings(self) -> list[Turning]:
         """Half a revolution apart (thesis (4-13))."""
         limits = speed_ratio_limits(self.train.i3, self.frame_ratio)
-        return Extremes(limits.greatest, (self.middle + math.pi) % math.tau, limits.least, self.middle)
+        return [Turning((self.middle + math.pi) % math.tau, limits.greatest), Turning(self.middle, limits.least)]
 
     @cached_property
-    def acceleration_extremes(self) -> Extremes:
+    def acceleration_turnings(self) -> list[Turning]:
         """A quarter turn after and before the minimum speed."""
         peak = peak_acceleration_ratio(self.train.i3, self.frame_ratio)
         after, before = (self.middle + 0.5 * math.pi) % math.tau, (self.middle - 0.5 * math.pi) % math.tau
-        return Extremes(peak, after, -peak, before)
+        return [Turning(after, peak), Turning(before, -peak)]
 
     @cached_property
     def places(self) -> list[float]:
@@ -857,3 +861,14 @@ class SymmetricOutput(Output):
     def dwell_angle(self) -> float | None:
         """phi13 from its own equation."""
         return dwell_angle(self.train.i3, self._phi12) if self._phi12 else None
+
+    @cached_property
+    def ripple(self) -> ToleranceDwell | None:
+        """As far before the back-step as the output regains its place behind it: the motion is odd about 270 deg."""
+        from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
+
+        step, phi13 = self.back_step, self.dwell_angle
+        if step is None or phi13 is None:
+            return None
+        start = wrap(step.start - (phi13 - step.crank_angle))
+        return ToleranceDwell(start, 2.0 * phi13 - step.crank_angle, self.angle(start) + 0.5 * step.angle)

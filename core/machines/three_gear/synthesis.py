@@ -24,7 +24,7 @@ from gearlink.core.machines.three_gear import momentary, symmetric
 from gearlink.core.machines.three_gear.codes import target_judged
 from gearlink.core.machines.three_gear.design import CHECKS, MESHES, QUANTITIES, ThreeGearFourBar, layout, tip_excess
 from gearlink.core.machines.three_gear.dwell import Output
-from gearlink.core.machines.three_gear.motion import GearTrain, gear_gap, idler_for_ratio
+from gearlink.core.machines.three_gear.train import GearTrain, gear_gap, idler_for_ratio
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ import pytest
 from factory import design
 
 from gearlink.cli.views.figures.chart_list import CHARTS
-from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.machines.three_gear.symmetric import symmetric_linkage
+from gearlink.core.machines.three_gear.train import GearTrain
 from tests.oracles.three_gear_output import output_motion
 
 NEW = ("dwell-ratio", "dwell-tolerance", "dwell-frame", "velocity-peak", "acceleration-peak", "energy-parameter")

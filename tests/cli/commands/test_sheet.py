@@ -92,11 +92,8 @@ def test_marked_extremes_are_those_of_the_analysis(name: str) -> None:
     """A parabola through points half a degree apart would miss their places by up to 0.003 deg."""
     made = design(worked(name))
     course = motion_sheet.courses(made)[0]
-    for order, found in ((1, made.speed_extremes), (2, made.acceleration_extremes)):
-        for greatest, place, value in (
-            (True, found.greatest_angle, found.greatest),
-            (False, found.least_angle, found.least),
-        ):
+    for order, found in ((1, (made.fastest, made.slowest)), (2, (made.hardest, made.hardest_back))):
+        for greatest, (place, value) in zip((True, False), found, strict=True):
             at, marked = course.extreme(order, greatest=greatest)
             assert marked == pytest.approx(value, rel=1e-12)
             assert at == pytest.approx(

@@ -69,7 +69,7 @@ def standing(family: Family, frame: float) -> int:
 
 
 def by_turnings(drive: PlanetLinkage) -> int:
-    return len(standstills(drive.speed, kernel.turnings(drive), 0.0))
+    return len(standstills(drive.speed, drive.speed_turnings, 0.0))
 
 
 def outputs(drive: PlanetLinkage) -> np.ndarray[Any, Any]:
@@ -144,7 +144,7 @@ def test_back_step_and_window_rise_towards_the_change_point(family: Family) -> N
     assert steps == sorted(steps)
     assert steps[0] > 0.0
     assert windows == sorted(windows)
-    assert kernel.back_step(family.drive(quiet + 1e-6 * (quiet - steep))) is None
+    assert family.drive(quiet + 1e-6 * (quiet - steep)).back_step is None
 
 
 def test_a_window_is_found_whatever_the_momentary_dwell_rounds_to() -> None:
@@ -176,7 +176,7 @@ def test_tolerance_dwell_against_a_scan(family: Family, tolerance: float, share:
     else:
         frame = momentary_frame(family)
     drive = family.drive(frame)
-    found = kernel.tolerance_dwell(drive, math.radians(tolerance))
+    found = drive.within(math.radians(tolerance))
     scanned = scanned_window(drive, tolerance)
     assert scanned <= math.degrees(found.crank_angle) <= scanned + 2.0 * GRID
     inside = [drive.angle(found.start + part * found.crank_angle) for part in np.linspace(0.0, 1.0, 201)]
@@ -225,7 +225,7 @@ def test_the_longest_window_of_uneven_ends_at_thirty_digits(family: Family, tole
     exact."""
     frame, window = kernel.longest(family, math.radians(tolerance))
     drive = family.drive(frame)
-    step, start = kernel.back_step(drive), kernel.tolerance_dwell(drive, math.radians(tolerance)).start
+    step, start = drive.back_step, drive.within(math.radians(tolerance)).start
     start -= 2.0 * math.pi * (start > step.start)
     places = start, step.start, step.start + step.crank_angle, start + window
     with mpmath.workdps(30):
@@ -338,7 +338,7 @@ def test_dwell_design(data: dict[str, Any]) -> None:
     # One end of the interval is the edge of the window, the other the back-step that fills the band.
     for frame, inward in ((low, 1.0), (high, -1.0)):
         inside, outside = (
-            kernel.tolerance_dwell(both.family.drive(frame + sign * inward * 1e-5), math.radians(0.5)).crank_angle
+            both.family.drive(frame + sign * inward * 1e-5).within(math.radians(0.5)).crank_angle
             for sign in (1.0, -1.0)
         )
         assert math.degrees(outside) < request < math.degrees(inside)
@@ -434,7 +434,7 @@ def test_a_tolerance_that_no_back_step_fills_is_met_the_better() -> None:
     assert wide.window_limit is None
     low, high = wide.frame_length_interval
     for frame in (low + 1e-6, 0.5 * (low + high), high - 1e-6):
-        dwell = kernel.tolerance_dwell(wide.family.drive(frame), math.radians(4.975))
+        dwell = wide.family.drive(frame).within(math.radians(4.975))
         assert dwell.crank_angle > math.radians(65.87), frame
 
 
@@ -445,9 +445,9 @@ def test_frames_end_where_the_window_becomes_too_short() -> None:
     found = made("dwell", data, dwell={"window": 37.27, "tolerance": 0.0839})
     low, high = found.frame_length_interval
     for frame in np.linspace(low + 1e-6, high - 1e-6, 5):
-        dwell = kernel.tolerance_dwell(found.family.drive(float(frame)), math.radians(0.0839))
+        dwell = found.family.drive(float(frame)).within(math.radians(0.0839))
         assert dwell.crank_angle > math.radians(37.27), frame
-    dwell = kernel.tolerance_dwell(found.family.drive(high + 1e-3), math.radians(0.0839))
+    dwell = found.family.drive(high + 1e-3).within(math.radians(0.0839))
     assert math.degrees(dwell.crank_angle) < 37.27
     assert high == pytest.approx(66.73, abs=0.05)
 

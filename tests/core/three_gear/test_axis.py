@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from axes import SOAK, agree, bits_stand_alone, by_path, sampled
 
-from gearlink.core.machines.three_gear import motion
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.studies.explore.chunks import chunk_of, together
 from gearlink.core.studies.explore.front import Found
 from gearlink.core.studies.explore.preparing import problem
@@ -319,7 +319,7 @@ def test_a_band_may_end_beyond_the_maximum_speed(
     made = sampled(base, "analyze", {"dwell_tolerance": {"values": [tolerance]}}, ["tolerance_dwell_angle"], 1)
     agree(made, median=1e-11)
     found = factory.design(base)
-    angle = [motion.output_angle(found.linkage, found.train, phi) for phi in np.radians(np.arange(0.0, 720.0, 0.5))]
+    angle = [Output(found.linkage, found.train).angle(phi) for phi in np.radians(np.arange(0.0, 720.0, 0.5))]
     for steps, fits in ((-1, True), (2, False)):
         count = int(2.0 * found.quantity("tolerance_dwell_angle").value) + steps
         windows = np.lib.stride_tricks.sliding_window_view(np.array(angle), count + 1)

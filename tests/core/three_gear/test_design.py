@@ -448,7 +448,7 @@ def test_transmission_angle_computes_no_motion():
 def test_gear_gap_sweeps_nothing():
     found = design(**EXAMPLE_3)
     found.quantity("gear_gap")
-    assert not set(vars(found)) & {"speed_extremes", "dwell_crank_angles", "meshes"}
+    assert not set(vars(found)) & {"speed_turnings", "dwell_crank_angles", "meshes"}
     assert math.isclose(found.gear_gap, -1.6, rel_tol=0.0, abs_tol=1e-12)
 
 

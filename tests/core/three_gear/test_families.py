@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear import families
-from gearlink.core.machines.three_gear.dwell import back_step, dwell_positions, tolerance_dwell
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     crank_with_room,
@@ -25,7 +25,7 @@ from gearlink.core.machines.three_gear.momentary import (
     eccentricity_range,
     momentary_frame_length,
 )
-from gearlink.core.machines.three_gear.motion import GearTrain, output_angle, speed_extremes
+from gearlink.core.machines.three_gear.train import GearTrain
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 
@@ -44,7 +44,7 @@ def test_frame_for_a_tolerance(given_: Any, wanted: Any) -> None:
     train = train_of(radii)
     request = math.radians(2.0 * given_["tolerance_deg"])
     linkage = families.solved(families.with_crank(*radii, given_["crank"]), families.back_step_of(train), request, "")
-    found = families.ripple(linkage, train)
+    found = Output(linkage, train).ripple
     assert linkage.frame == pytest.approx(wanted["frame"], rel=1e-13)
     assert math.degrees(found.crank_angle) == pytest.approx(wanted["window"], rel=1e-11)
     assert math.degrees(found.start) == pytest.approx(wanted["start"], rel=1e-11)
@@ -59,7 +59,7 @@ def test_balanced_for_a_tolerance(given_: Any, wanted: Any) -> None:
     assert (linkage.crank, linkage.frame) == pytest.approx((wanted["crank"], wanted["frame"]), rel=1e-12)
     angle = math.degrees(linkage.min_transmission_angle())
     assert angle == pytest.approx(wanted["transmission_angle"], rel=1e-12)
-    assert math.degrees(families.ripple(linkage, train).crank_angle) == pytest.approx(wanted["window"], rel=1e-11)
+    assert math.degrees(Output(linkage, train).ripple.crank_angle) == pytest.approx(wanted["window"], rel=1e-11)
 
 
 @pytest.mark.parametrize(("given_", "wanted"), cases("B4."))
@@ -69,7 +69,7 @@ def test_frame_for_a_dwell_angle(given_: Any, wanted: Any) -> None:
     family = families.with_crank(*radii, given_["crank"])
     linkage = families.solved(family, families.dwell_angle_of(train), math.radians(given_["dwell_angle"]), "")
     assert linkage.frame == pytest.approx(wanted["frame"], rel=1e-12)
-    assert math.degrees(back_step(linkage, train).angle) == pytest.approx(wanted["back_step"], rel=1e-10)
+    assert math.degrees(Output(linkage, train).back_step.angle) == pytest.approx(wanted["back_step"], rel=1e-10)
 
 
 def test_momentary_from_frame_and_from_room() -> None:
@@ -123,13 +123,13 @@ def test_no_frame_stands_longer(radii: tuple[float, float, float], share: float,
         best = families.solved(family, families.back_step_of(train), 2.0 * tau, "")
     except NoSolution:
         assume(False)
-    window = families.ripple(best, train).crank_angle
+    window = Output(best, train).ripple.crank_angle
     for part in (0.2, 0.9, 0.999):
         for frame in (
             family.low + part * (best.frame - family.low),
             best.frame + (1.0 - part) * (family.high - best.frame),
         ):
-            assert tolerance_dwell(family.linkage(frame), train, tau).crank_angle <= window * (1.0 + 1e-9)
+            assert Output(family.linkage(frame), train).within(tau).crank_angle <= window * (1.0 + 1e-9)
 
 
 @settings(max_examples=12)
@@ -153,27 +153,28 @@ def test_tasks_are_met_on_the_motion_itself(
         request = ends[0] + part * (ends[1] - ends[0])
         linkage = families.solved(family, measure(train), request, "")
         assert measure(train)(linkage) == pytest.approx(request, rel=1e-9)
-        assert len(dwell_positions(linkage, train)) == 2
+        assert len(Output(linkage, train).places) == 2
 
 
 def test_ripple_touches_both_edges_twice() -> None:
     linkage, train = families.with_crank(25.0, 25.0, 75.0, 18.0).linkage(121.4), GearTrain(20, 20, 60)
-    found, step = families.ripple(linkage, train), back_step(linkage, train)
+    found, step = Output(linkage, train).ripple, Output(linkage, train).back_step
     places = [found.start, step.start, step.end, found.start + found.crank_angle]
-    start, top, bottom, end = (output_angle(linkage, train, phi) for phi in places)
+    start, top, bottom, end = (Output(linkage, train).angle(phi) for phi in places)
     assert start == pytest.approx(bottom, abs=1e-14)
     assert end == pytest.approx(top, abs=1e-14)
-    inside = [output_angle(linkage, train, found.start + i / 500 * found.crank_angle) for i in range(501)]
+    inside = [Output(linkage, train).angle(found.start + i / 500 * found.crank_angle) for i in range(501)]
     assert max(inside) <= top + 1e-14
     assert min(inside) >= bottom - 1e-14
-    assert top - bottom == pytest.approx(2.0 * found.tolerance, rel=1e-12)
+    assert top - bottom == pytest.approx(step.angle, rel=1e-12)
+    assert found.output_angle == pytest.approx(0.5 * (top + bottom), abs=1e-14)
 
 
 def test_speed_quotient() -> None:
     train, family = GearTrain(20, 20, 60), families.with_crank(25.0, 25.0, 75.0, 18.0)
     for quotient in (0.1, 0.0, -0.02):
-        extremes = speed_extremes(families.with_speed_quotient(family, train, quotient), train)
-        assert extremes.least / extremes.greatest == pytest.approx(quotient, rel=1e-11, abs=1e-14)
+        extremes = Output(families.with_speed_quotient(family, train, quotient), train)
+        assert extremes.speed_ratio_min / extremes.speed_ratio_max == pytest.approx(quotient, rel=1e-11, abs=1e-14)
     with pytest.raises(NoSolution, match="min/max of the output speed"):
         families.with_speed_quotient(family, train, -0.9)
 

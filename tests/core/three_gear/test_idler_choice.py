@@ -7,7 +7,6 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.momentary import momentary_linkage
-from gearlink.core.machines.three_gear.motion import GearTrain, gear_gap
 from gearlink.core.machines.three_gear.symmetric import (
     crank_angle_for_dwell,
     frame_ratio_for_back_step,
@@ -15,6 +14,7 @@ from gearlink.core.machines.three_gear.symmetric import (
     symmetric_linkage,
 )
 from gearlink.core.machines.three_gear.synthesis import idler_for_ratio, smallest_idler
+from gearlink.core.machines.three_gear.train import GearTrain, gear_gap
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 LIMITS = {"min_transmission_angle": math.radians(40.0), "min_gear_gap": 0.0}

@@ -21,17 +21,9 @@ from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear import families, momentary
-from gearlink.core.machines.three_gear.dwell import back_step, dwell_positions, tolerance_dwell
-from gearlink.core.machines.three_gear.families import back_step_of, ripple, solved
-from gearlink.core.machines.three_gear.motion import (
-    GearTrain,
-    forward,
-    mean_ratio,
-    output_acceleration,
-    output_jerk,
-    output_speed,
-    speed_extremes,
-)
+from gearlink.core.machines.three_gear.dwell import Output
+from gearlink.core.machines.three_gear.families import back_step_of, solved
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -54,9 +46,9 @@ def test_standstills_of_the_reference(name: str) -> None:
     given, want = case(name)["input"], case(name)["expected"]
     radii = [given[key] for key in ("r1", "r3", "r5")]
     train, linkage = GearTrain(*radii), linkage_of(radii, given["crank"], given["frame"], given["assembly"])
-    assert [math.degrees(x) for x in dwell_positions(linkage, train)] == pytest.approx(want["standstills"], rel=1e-11)
-    assert math.degrees(back_step(linkage, train).angle) == pytest.approx(want["back_step"], rel=1e-10)
-    assert mean_ratio(linkage, train) == pytest.approx(want["mean_ratio"], rel=1e-15)
+    assert [math.degrees(x) for x in Output(linkage, train).places] == pytest.approx(want["standstills"], rel=1e-11)
+    assert math.degrees(Output(linkage, train).back_step.angle) == pytest.approx(want["back_step"], rel=1e-10)
+    assert Output(linkage, train).mean_ratio == pytest.approx(want["mean_ratio"], rel=1e-15)
 
 
 def test_momentary_dwell_of_the_reference() -> None:
@@ -64,9 +56,9 @@ def test_momentary_dwell_of_the_reference() -> None:
     radii = given["r1"], given["r3"], given["r5"]
     linkage = families.momentary_ring_linkage(*radii, given["crank"])
     assert linkage.frame == pytest.approx(want["frame"], rel=1e-13)
-    (place,) = dwell_positions(linkage, GearTrain(*radii))
+    (place,) = Output(linkage, GearTrain(*radii)).places
     assert math.degrees(place) == pytest.approx(want["crank_angle"], rel=1e-11)
-    assert output_jerk(linkage, GearTrain(*radii), place) == pytest.approx(want["jerk_ratio"], rel=1e-8)
+    assert Output(linkage, GearTrain(*radii)).jerk(place) == pytest.approx(want["jerk_ratio"], rel=1e-8)
 
 
 def test_longest_window_of_the_reference() -> None:
@@ -112,13 +104,13 @@ def test_standstills_against_sign_changes_of_the_speed() -> None:
     for linkage, train, _ in arrangements(125, seed=5):
 
         def speed(phi: float, linkage: FourBar = linkage, train: GearTrain = train) -> float:
-            return output_speed(linkage, train, phi)
+            return Output(linkage, train).speed(phi)
 
         def slope(phi: float, linkage: FourBar = linkage, train: GearTrain = train) -> float:
-            return output_acceleration(linkage, train, phi)
+            return Output(linkage, train).acceleration(phi)
 
         want = standstills.standstills(speed, standstills.turnings(speed, slope), 1e-12)
-        got = dwell_positions(linkage, train)
+        got = Output(linkage, train).places
         assert len(got) == len(want)
         seen += len(got) == 2
         np.testing.assert_allclose(np.sort(got), np.sort(want), rtol=0.0, atol=1e-11)
@@ -127,9 +119,9 @@ def test_standstills_against_sign_changes_of_the_speed() -> None:
 
 def test_extremes_of_a_linkage_with_equal_coupler_and_rocker_lie_on_the_frame_line() -> None:
     train, linkage = GearTrain(50.0, 8.0, -66.0), FourBar(50.0, 58.0, 58.0, 57.0)
-    found, turn = speed_extremes(linkage, train), output_motion(linkage, train, np.linspace(0.0, math.tau, 3601))
-    assert found.least == pytest.approx(turn.speed_ratio.min(), rel=1e-6)
-    assert found.greatest == pytest.approx(turn.speed_ratio.max(), rel=1e-6)
+    found, turn = Output(linkage, train), output_motion(linkage, train, np.linspace(0.0, math.tau, 3601))
+    assert found.speed_ratio_min == pytest.approx(turn.speed_ratio.min(), rel=1e-6)
+    assert found.speed_ratio_max == pytest.approx(turn.speed_ratio.max(), rel=1e-6)
 
 
 def test_momentary_dwell_at_forty_digits() -> None:
@@ -204,7 +196,7 @@ def test_no_frame_has_a_longer_window(radii: tuple[float, float, float], crank: 
     train, tolerance = GearTrain(*radii), math.radians(0.5)
     family = families.with_crank(*radii, crank)
     linkage = solved(family, back_step_of(train), 2.0 * tolerance, "")
-    window = ripple(linkage, train).crank_angle
+    window = Output(linkage, train).ripple.crank_angle
     low, high = sorted((family.least, family.high))
     frames = [low + (high - low) * share for share in np.linspace(0.02, 0.98, 33)]
     reached = [brute_window(family.linkage(frame), train, tolerance) for frame in frames]
@@ -216,8 +208,8 @@ def test_no_frame_has_a_longer_window(radii: tuple[float, float, float], crank: 
 @pytest.mark.slow
 def test_tolerance_dwell_against_brute_force() -> None:
     for linkage, train, _ in arrangements(12, seed=21):
-        tolerance = 0.03 * math.pi * abs(mean_ratio(linkage, train))
-        found = tolerance_dwell(linkage, train, tolerance)
+        tolerance = 0.03 * math.pi * abs(Output(linkage, train).mean_ratio)
+        found = Output(linkage, train).within(tolerance)
         brute = brute_window(linkage, train, tolerance)
         assert brute <= found.crank_angle + 1e-9
         assert found.crank_angle - brute < math.radians(0.4)
@@ -244,7 +236,7 @@ def test_families_meet_in_the_same_linkage() -> None:
 
 def test_forward_counts_the_output_along_its_mean() -> None:
     for linkage, train, _ in arrangements(30, seed=2):
-        assert mean_ratio(linkage, forward(linkage, train)) > 0.0
+        assert Output(linkage, Output(linkage, train).ahead.train).mean_ratio > 0.0
 
 
 # The design file
@@ -267,7 +259,7 @@ def test_interval_of_frames_meets_the_request() -> None:
     low, high = found.frame_length_interval
     for frame, inside in ((low + 1e-6, True), (high - 1e-6, True), (low - 1e-4, False), (high + 1e-4, False)):
         linkage = FourBar(found.linkage.crank, found.linkage.coupler, found.linkage.rocker, frame)
-        reached = tolerance_dwell(linkage, found.train, math.radians(0.5)).crank_angle
+        reached = Output(linkage, found.train).within(math.radians(0.5)).crank_angle
         assert (reached >= math.radians(130.0)) is inside
 
 

@@ -16,6 +16,7 @@ from oracles.symmetric import momentary_frame_ratio
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.momentary import (
     eccentricity_range,
     least_eccentricity,
@@ -26,14 +27,8 @@ from gearlink.core.machines.three_gear.momentary import (
     tangency_range,
     wrap,
 )
-from gearlink.core.machines.three_gear.motion import (
-    GearTrain,
-    gear_gap,
-    output_acceleration,
-    output_speed,
-    speed_extremes,
-)
 from gearlink.core.machines.three_gear.symmetric import symmetric_linkage
+from gearlink.core.machines.three_gear.train import GearTrain, gear_gap
 
 CASES = {
     case["id"]: case
@@ -63,7 +58,7 @@ def test_published_example_3_repaired():
     assert least_eccentricity(*EX3) == pytest.approx(out["e_lo"], rel=1e-15)
     assert momentary_frame_length(*EX3, out["e_for_d_121_4"]) == pytest.approx(121.4, rel=1e-15)
     assert math.degrees(linkage.min_transmission_angle()) == pytest.approx(out["gamma_ext_deg"][2], rel=1e-15)
-    assert speed_extremes(linkage, GearTrain(20, 20, 60)).greatest == pytest.approx(out["W_max"], abs=1e-14)
+    assert Output(linkage, GearTrain(20, 20, 60)).speed_ratio_max == pytest.approx(out["W_max"], abs=1e-14)
 
 
 def test_published_check_against_the_symmetric_family():
@@ -101,8 +96,8 @@ def test_speed_and_acceleration_vanish(r1, r3, r5, share, assembly):
     phi = momentary_crank_angle(r1, r3, r5, e, assembly)
     sine = min(math.sin(gamma) for gamma in linkage.transmission_extremes())
     slack = 1e-14 * (train.rocker_share + train.ratio) / sine**2
-    assert abs(output_speed(linkage, train, phi)) < slack
-    assert abs(output_acceleration(linkage, train, phi)) < 10 * slack / sine
+    assert abs(Output(linkage, train).speed(phi)) < slack
+    assert abs(Output(linkage, train).acceleration(phi)) < 10 * slack / sine
 
 
 @examples(100)

@@ -16,17 +16,8 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.motion import (
-    GearTrain,
-    acceleration_extremes,
-    gear_gap,
-    mean_ratio,
-    output_acceleration,
-    output_angle,
-    output_jerk,
-    output_speed,
-    speed_extremes,
-)
+from gearlink.core.machines.three_gear.dwell import Output
+from gearlink.core.machines.three_gear.train import GearTrain, gear_gap
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
@@ -68,29 +59,31 @@ def drives(draw):
 def test_published_kinematics_of_example_3():
     for phi, *_angles, _w2, _w3, _e2, _e3, speed, acceleration in CASES["ex3_kinematics"]["outputs"]["rows"]:
         at = math.radians(phi)
-        assert output_speed(EX3, EX3_TRAIN, at) == pytest.approx(speed, abs=1e-14)
-        assert output_acceleration(EX3, EX3_TRAIN, at) == pytest.approx(acceleration, abs=1e-14)
+        assert Output(EX3, EX3_TRAIN).speed(at) == pytest.approx(speed, abs=1e-14)
+        assert Output(EX3, EX3_TRAIN).acceleration(at) == pytest.approx(acceleration, abs=1e-14)
 
 
 def test_published_extremes_of_example_3():
-    out, found = CASES["ex3_source_d"]["outputs"], speed_extremes(EX3, EX3_TRAIN)
-    assert found.greatest == pytest.approx(out["W_max"], abs=1e-14)
-    assert found.least == pytest.approx(out["W_min"], abs=1e-14)
-    assert found.greatest_angle == pytest.approx(math.radians(out["phi_Wmax_deg"]), abs=1e-14)
-    assert found.least_angle == pytest.approx(math.radians(out["phi_Wmin_deg"]), abs=1e-14)
-    assert output_speed(EX3, EX3_TRAIN, 0.0) == pytest.approx(out["W_at_0"], abs=1e-15)
+    out, found = CASES["ex3_source_d"]["outputs"], Output(EX3, EX3_TRAIN)
+    assert found.speed_ratio_max == pytest.approx(out["W_max"], abs=1e-14)
+    assert found.speed_ratio_min == pytest.approx(out["W_min"], abs=1e-14)
+    assert found.speed_ratio_max_at == pytest.approx(math.radians(out["phi_Wmax_deg"]), abs=1e-14)
+    assert found.speed_ratio_min_at == pytest.approx(math.radians(out["phi_Wmin_deg"]), abs=1e-14)
+    assert Output(EX3, EX3_TRAIN).speed(0.0) == pytest.approx(out["W_at_0"], abs=1e-15)
 
 
 @pytest.mark.parametrize(("case", "train"), [("ex1", GearTrain(40, 72, 40)), ("ex2", GearTrain(20, 21, 20))])
 def test_published_extremes_of_the_symmetric_examples(case, train):
     out = CASES[case]["outputs"]
     linkage = FourBar(out["l1"], out["l1"] * out["b_ratio"], out["l1"] * out["b_ratio"], out["l4"])
-    found = speed_extremes(linkage, train)
-    assert (found.greatest, found.least) == pytest.approx((out["W_max"], out["W_min"]), abs=1e-14)
-    assert (found.greatest_angle, found.least_angle) == pytest.approx((math.pi / 2, 1.5 * math.pi), abs=1e-14)
+    found = Output(linkage, train)
+    assert (found.speed_ratio_max, found.speed_ratio_min) == pytest.approx((out["W_max"], out["W_min"]), abs=1e-14)
+    assert (found.speed_ratio_max_at, found.speed_ratio_min_at) == pytest.approx(
+        (math.pi / 2, 1.5 * math.pi), abs=1e-14
+    )
     assert math.degrees(linkage.min_transmission_angle()) == pytest.approx(out["gamma_min_deg"], rel=1e-14)
     assert gear_gap(linkage, train, 2.0) == pytest.approx(out["gap15"], abs=1e-12)
-    assert (found.greatest - found.least) / abs(mean_ratio(linkage, train)) == pytest.approx(
+    assert (found.speed_ratio_max - found.speed_ratio_min) / abs(Output(linkage, train).mean_ratio) == pytest.approx(
         out["W_max"] - out["W_min"], abs=1e-14
     )
 
@@ -104,10 +97,10 @@ def test_published_gaps_count_from_the_moving_gear():
 
 def test_published_peak_acceleration():
     case = CASES["I1_peak_accel"]
-    found = acceleration_extremes(family(case["inputs"]["d"]), GearTrain(1.0, 1.8, 1.0))
-    assert found.greatest == pytest.approx(case["outputs"]["e5max"], rel=1e-14)
-    assert found.least == pytest.approx(-case["outputs"]["e5max"], rel=1e-14)
-    assert math.sin(found.greatest_angle) == pytest.approx(0.0, abs=1e-14)
+    found = Output(family(case["inputs"]["d"]), GearTrain(1.0, 1.8, 1.0))
+    assert found.acceleration_ratio_max == pytest.approx(case["outputs"]["e5max"], rel=1e-14)
+    assert found.acceleration_ratio_min == pytest.approx(-case["outputs"]["e5max"], rel=1e-14)
+    assert math.sin(found.acceleration_ratio_max_at) == pytest.approx(0.0, abs=1e-14)
 
 
 @examples(150)
@@ -124,7 +117,7 @@ def test_speed_agrees_with_the_instant_centre(drive, phi):
     # x of P15 is u/v; W = x/(x - d) = u/(u - d v) holds too where P15 lies at infinity
     u, v = fx * (ey - fy) - fy * (ex - fx), ey - fy
     condition = (a + d + linkage.rocker) ** 2 / (abs(u - d * v) * math.sin(state.transmission_angle) ** 2)
-    speed = output_speed(linkage, train, phi)
+    speed = Output(linkage, train).speed(phi)
     assert speed == pytest.approx(u / (u - d * v), abs=1e-13 * (1.0 + abs(speed)) * condition)
 
 
@@ -134,10 +127,10 @@ def test_mirrored_linkage_runs_backwards(drive, phi):
     linkage, train = drive
     mirror = FourBar(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, -linkage.assembly)
     scale = 1e-14 / math.sin(solve(linkage, phi).transmission_angle) ** 3 * (train.rocker_share + train.ratio)
-    assert output_angle(mirror, train, phi) == pytest.approx(-output_angle(linkage, train, -phi), abs=30 * scale)
-    assert output_speed(mirror, train, phi) == pytest.approx(output_speed(linkage, train, -phi), abs=30 * scale)
-    assert output_acceleration(mirror, train, phi) == pytest.approx(
-        -output_acceleration(linkage, train, -phi), abs=1000 * scale
+    assert Output(mirror, train).angle(phi) == pytest.approx(-Output(linkage, train).angle(-phi), abs=30 * scale)
+    assert Output(mirror, train).speed(phi) == pytest.approx(Output(linkage, train).speed(-phi), abs=30 * scale)
+    assert Output(mirror, train).acceleration(phi) == pytest.approx(
+        -Output(linkage, train).acceleration(-phi), abs=1000 * scale
     )
 
 
@@ -149,16 +142,16 @@ def test_speed_does_not_depend_on_the_scale(drive, phi, scale):
     same = FourBar(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame)
     sine = min(math.sin(gamma) for gamma in same.transmission_extremes())
     condition = (train.rocker_share + train.ratio) * 10 / sine**2
-    assert output_speed(larger, train, phi) == pytest.approx(output_speed(same, train, phi), abs=1e-14 * condition)
+    assert Output(larger, train).speed(phi) == pytest.approx(Output(same, train).speed(phi), abs=1e-14 * condition)
 
 
 @examples(100)
 @given(drives(), angles)
 def test_output_gains_the_mean_ratio_in_a_turn(drive, phi):
     linkage, train = drive
-    gain = output_angle(linkage, train, phi + 2.0 * math.pi) - output_angle(linkage, train, phi)
+    gain = Output(linkage, train).angle(phi + 2.0 * math.pi) - Output(linkage, train).angle(phi)
     expected = 2.0 * math.pi * (train.ratio if linkage.crank < linkage.frame else 1.0)
-    assert mean_ratio(linkage, train) * 2.0 * math.pi == expected
+    assert Output(linkage, train).mean_ratio * 2.0 * math.pi == expected
     assert gain == pytest.approx(expected, abs=1e-12 * train.rocker_share * 10)
 
 
@@ -176,32 +169,33 @@ def test_rates_are_the_derivatives_of_the_angle(linkage, train):
     with mpmath.workdps(40):
         for degrees in (20, 100, 300):  # away from the jumps of arg
             phi = mpmath.mpf(math.radians(degrees))
-            rates = (output_speed, output_acceleration, output_jerk)
+            made = Output(linkage, train)
+            rates = (made.speed, made.acceleration, made.jerk)
             for order, rate in enumerate(rates, start=1):
                 exact = float(mpmath.diff(output, phi, order))
-                assert rate(linkage, train, float(phi)) == pytest.approx(exact, rel=1e-12, abs=1e-13)
+                assert rate(float(phi)) == pytest.approx(exact, rel=1e-12, abs=1e-13)
 
 
 @examples(25)
 @given(drives())
 def test_no_place_is_beyond_the_extremes(drive):
     linkage, train = drive
-    found = speed_extremes(linkage, train)
-    values = [output_speed(linkage, train, math.radians(i)) for i in range(0, 360, 3)]
+    found = Output(linkage, train)
+    values = [Output(linkage, train).speed(math.radians(i)) for i in range(0, 360, 3)]
     slack = 1e-11 * max(map(abs, values))
-    assert found.least - slack <= min(values)
-    assert max(values) <= found.greatest + slack
+    assert found.speed_ratio_min - slack <= min(values)
+    assert max(values) <= found.speed_ratio_max + slack
 
 
 def test_narrow_peaks_next_to_a_change_point_are_found():
     """Folded at the crank angle 0 with 1e-6 of the frame to spare: the speed jumps within 0.1 deg."""
     linkage = FourBar(20.0, 90.0, 40.0, 70.0 * (1.0 + 1e-6))
-    found = speed_extremes(linkage, GearTrain(60, 30, 10))
-    fine = [output_speed(linkage, GearTrain(60, 30, 10), math.radians(0.001 * i)) for i in range(-300, 301)]
-    assert found.greatest >= max(fine)
-    assert found.least <= min(fine)
-    assert found.greatest > output_speed(linkage, GearTrain(60, 30, 10), math.radians(2.0)) + 1e-4
-    assert found.greatest_angle < math.radians(0.2)
+    found = Output(linkage, GearTrain(60, 30, 10))
+    fine = [Output(linkage, GearTrain(60, 30, 10)).speed(math.radians(0.001 * i)) for i in range(-300, 301)]
+    assert found.speed_ratio_max >= max(fine)
+    assert found.speed_ratio_min <= min(fine)
+    assert found.speed_ratio_max > Output(linkage, GearTrain(60, 30, 10)).speed(math.radians(2.0)) + 1e-4
+    assert found.speed_ratio_max_at < math.radians(0.2)
 
 
 @pytest.mark.parametrize(
@@ -217,7 +211,7 @@ def test_refuses_a_crank_that_does_not_turn(links, words):
     with pytest.raises(NoSolution, match=words):
         check_linkage(FourBar(*links))
     with pytest.raises(NoSolution, match="not a crank-rocker or drag link"):
-        speed_extremes(FourBar(*links), EX3_TRAIN)
+        _ = Output(FourBar(*links), EX3_TRAIN).speed_turnings
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,8 @@ from oracles.three_gear_chain import Errors, output_error
 from oracles.three_gear_gains import Drive, register_gains
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration
+from gearlink.core.machines.three_gear.dwell import Output
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
@@ -272,7 +273,7 @@ def test_the_friction_that_is_named_keeps_the_sign_of_the_torque() -> None:
 
     one = made()
     drive, phi = one.design, np.linspace(0.0, 2.0 * math.pi, 7201)
-    change = [output_acceleration(drive.linkage, drive.train, float(x)) for x in phi]
+    change = [Output(drive.linkage, drive.train).acceleration(float(x)) for x in phi]
     inertia = 0.02 * (90.0 * 2.0 * math.pi / 60.0) ** 2
     most, slowed = inertia * max(map(abs, change)), -inertia * min(change)
     named = float(one.against_flips.split("above ")[1].split(" ")[0])

@@ -11,14 +11,15 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear import symmetric
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.momentary import (
     momentary_crank_angle,
     momentary_frame_length,
     tangency_range,
 )
-from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric import dwell_angle
+from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from tests.oracles.three_gear_output import output_motion
@@ -33,13 +34,13 @@ DRAG_TRAIN = GearTrain(23.441236459944996, 12.003476037635881, 27.87850422292809
 @pytest.mark.parametrize(("linkage", "train"), [(EX3, EX3_TRAIN), (DRAG, DRAG_TRAIN)])
 def test_motion_agrees_with_the_scalar_kernels(linkage, train):
     phi = np.linspace(-7.0, 14.0, 301)
-    motion = output_motion(linkage, train, phi)
+    motion, output = output_motion(linkage, train, phi), Output(linkage, train)
     for rate, scalar in (
-        (motion.output_angle, output_angle),
-        (motion.speed_ratio, output_speed),
-        (motion.acceleration_ratio, output_acceleration),
+        (motion.output_angle, output.angle),
+        (motion.speed_ratio, output.speed),
+        (motion.acceleration_ratio, output.acceleration),
     ):
-        assert rate == pytest.approx(np.array([scalar(linkage, train, x) for x in phi]), abs=1e-13 * 10)
+        assert rate == pytest.approx(np.array([scalar(x) for x in phi]), abs=1e-13 * 10)
     assert np.all((motion.transmission_angle > 0.0) & (motion.transmission_angle <= math.pi / 2))
     assert motion.transmission_angle.min() >= linkage.min_transmission_angle() - 1e-15
 

@@ -15,7 +15,7 @@ from oracles.symmetric import back_step_crank_angle, momentary_frame_ratio
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.motion import GearTrain, acceleration_extremes, gear_gap, speed_extremes
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.symmetric import (
     crank_angle_for_dwell,
     frame_ratio_for_back_step,
@@ -24,6 +24,7 @@ from gearlink.core.machines.three_gear.symmetric import (
     speed_ratio_limits,
     symmetric_linkage,
 )
+from gearlink.core.machines.three_gear.train import GearTrain, gear_gap
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
@@ -119,9 +120,11 @@ def test_closed_limits_agree_with_the_general_linkage(i3, d, assembly):
     assert linkage.kind() == "crank-rocker"
     # k = 2d/(1 + d^2) is the cosine of the minimum transmission angle; rates lose 1/sin^2
     slack = 2e-14 * (1.0 - i3) * ((d + 1.0) / (d - 1.0)) ** 2
-    speed, peak = speed_extremes(linkage, train), acceleration_extremes(linkage, train)
-    assert (speed.greatest, speed.least) == pytest.approx(speed_ratio_limits(i3, d), abs=slack)
-    assert peak.greatest == pytest.approx(peak_acceleration_ratio(i3, d), abs=slack * (d + 1.0) / (d - 1.0))
+    found = Output(linkage, train)
+    assert (found.speed_ratio_max, found.speed_ratio_min) == pytest.approx(speed_ratio_limits(i3, d), abs=slack)
+    assert found.acceleration_ratio_max == pytest.approx(
+        peak_acceleration_ratio(i3, d), abs=slack * (d + 1.0) / (d - 1.0)
+    )
 
 
 @examples(50)

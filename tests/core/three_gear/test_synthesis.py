@@ -504,7 +504,7 @@ def test_frame_ratio_of_a_given_idler_takes_no_motion():
     made = design("synth back-step", gears=EQUAL | {"idler": 72}, back_step={"crank_angle": 90.0})
     assert value(made, "frame_ratio") == pytest.approx(3.951703805053557, rel=1e-14)
     assert not set(vars(made)) & {"meshes", "mean_ratio", "layout"}
-    assert not set(vars(made.output)) & {"speed_extremes", "places", "dwell_angle"}
+    assert not set(vars(made.output)) & {"speed_turnings", "places", "dwell_angle"}
 
 
 def test_closed_forms_replace_the_search_for_extremes():

@@ -18,7 +18,8 @@ from sweeps import ALL
 
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
-from gearlink.core.machines.three_gear import motion, sweep
+from gearlink.core.machines.three_gear import sweep
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.register import DriveSamples, ThreeGearSamples, TolerancedDrive
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
@@ -166,6 +167,6 @@ def test_motions_of_many_lengths_are_those_of_each(assembly: int) -> None:
     rates, turned = sweep.speed(angles, made.drives), made.angle_at(angles) - made.angle_at(np.zeros(40))
     for i, phi in enumerate(angles):
         one = FourBar(a[i], b[i], c[i], d[i], assembly), nominal.train, phi
-        wanted = [motion.output_speed(*one), motion.output_acceleration(*one), motion.output_jerk(*one)]
+        wanted = [Output(*one[:2]).speed(one[2]), Output(*one[:2]).acceleration(one[2]), Output(*one[:2]).jerk(one[2])]
         assert [rate[i] for rate in rates] == pytest.approx(wanted, abs=2e-14)
-        assert turned[i] == pytest.approx(motion.output_angle(*one), abs=4e-15)
+        assert turned[i] == pytest.approx(Output(*one[:2]).angle(one[2]), abs=4e-15)

@@ -55,7 +55,7 @@ def test_even_stretch_is_that_of_a_sliding_window(data: Any, share: float) -> No
     rows, _ = longest(np.asarray(table["speed_ratio"]), (1.0 + share) / (1.0 - share))
     assert math.degrees(found.uniform_angle) == pytest.approx(0.25 * rows, abs=0.51)
     inside = np.linspace(found.uniform_start, found.uniform_start + found.uniform_angle, 721)
-    ratio = [found._forwards(x) for x in inside]
+    ratio = [found.output.ahead.speed(x) for x in inside]
     assert max(ratio) / min(ratio) == pytest.approx((1.0 + share) / (1.0 - share), rel=1e-6)
     assert found.uniform_ratio == pytest.approx(0.5 * (max(ratio) + min(ratio)), rel=1e-6)
 

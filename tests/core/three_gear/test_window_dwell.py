@@ -24,8 +24,7 @@ from oracles.symmetric import momentary_frame_ratio
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear import symmetric
-from gearlink.core.machines.three_gear.dwell import tolerance_dwell
-from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.symmetric import (
     crank_angle_for_window,
     dwell_angle,
@@ -33,6 +32,7 @@ from gearlink.core.machines.three_gear.symmetric import (
     symmetric_linkage,
     window_limit,
 )
+from gearlink.core.machines.three_gear.train import GearTrain
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 EXACT = 1e-12
@@ -107,7 +107,7 @@ def test_no_frame_has_a_longer_window(i3: float, tolerance: float) -> None:
     longest = symmetric.longest_window(i3, tau)
     best = frame_ratio_for_back_step(i3, symmetric.crank_angle_for_tolerance(i3, tau))
     found = [
-        tolerance_dwell(symmetric_linkage(1.0 + (best - 1.0) * share, 100.0), train, tau).crank_angle
+        Output(symmetric_linkage(1.0 + (best - 1.0) * share, 100.0), train).within(tau).crank_angle
         for share in (0.8, 0.97, 0.999, 1.0 + 1e-9, 1.001, 1.03, 1.3)
     ]
     assert max(found) <= longest * (1.0 + 1e-9)
@@ -124,9 +124,9 @@ def test_every_frame_of_the_interval_meets_the_request(i3: float, tolerance: flo
     window = max(2.5 * tau, part * symmetric.longest_window(train.i3, tau))
     low, high = symmetric.frame_ratio_interval(train.i3, window, tau)
     inside = symmetric_linkage(low + share * (high - low), 100.0)
-    assert tolerance_dwell(inside, train, tau).crank_angle >= window * (1.0 - 1e-9)
+    assert Output(inside, train).within(tau).crank_angle >= window * (1.0 - 1e-9)
     outside = symmetric_linkage(high + 0.02 * (high - low), 100.0)
-    assert tolerance_dwell(outside, train, tau).crank_angle < window
+    assert Output(outside, train).within(tau).crank_angle < window
 
 
 def test_asymptote() -> None:
@@ -141,7 +141,7 @@ def test_asymptote() -> None:
 def test_gain_over_the_momentary_dwell() -> None:
     tau, train = rad(1e-3), GearTrain(40, 72, 40)
     momentary = symmetric_linkage(momentary_frame_ratio(train.i3), 112.0)
-    gain = symmetric.longest_window(train.i3, tau) / tolerance_dwell(momentary, train, tau).crank_angle
+    gain = symmetric.longest_window(train.i3, tau) / Output(momentary, train).within(tau).crank_angle
     assert gain == pytest.approx(4.0 ** (1.0 / 3.0), rel=1e-3)
 
 
@@ -363,7 +363,7 @@ def test_equal_gears_keep_a_band_that_no_back_step_fills(idler: int, window: flo
     assert low == 1.0
     for ratio, met in ((1.0 + 1e-4, True), (0.5 * (low + high), True), (high - 1e-6, True), (high + 1e-6, False)):
         made = symmetric_linkage(ratio, 60.0)
-        found = tolerance_dwell(made, GearTrain(40, idler, 40), math.radians(tolerance)).crank_angle
+        found = Output(made, GearTrain(40, idler, 40)).within(math.radians(tolerance)).crank_angle
         assert (found > math.radians(window)) is met, ratio
 
 

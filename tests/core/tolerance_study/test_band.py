@@ -12,7 +12,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.machines.three_gear import motion
+from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.studies.tolerance_study.samples import SHARES, courses, outputs_of
 
 CANDY: dict[str, Any] = {
@@ -40,8 +40,7 @@ def test_arrays_are_the_drives_one_by_one() -> None:
         one = made.axis.design({key: float(value[i]) for key, value in columns.items()})
         for k, phi in enumerate(places):
             turned, wanted = (
-                motion.output_angle(drive.linkage, drive.train, phi)
-                - motion.output_angle(drive.linkage, drive.train, start)
+                Output(drive.linkage, drive.train).angle(phi) - Output(drive.linkage, drive.train).angle(start)
                 for drive in (one, nominal)
             )
             assert found[k, i] == pytest.approx(turned - wanted, abs=1e-12)
@@ -54,14 +53,13 @@ def test_a_pin_that_turns_the_frame_turns_the_crank_angles() -> None:
     found = made.axis.course(made.offsets([{"pins.A": -play}, {"pins.A": 1j * play}]), places)
     links, train = made.nominal.linkage, made.nominal.train
     start = math.radians(made.axis.reference)
-    speed = np.array([motion.output_speed(links, train, float(phi)) for phi in (*places, start)])
+    speed = np.array([Output(links, train).speed(float(phi)) for phi in (*places, start)])
     across = play / links.frame * (speed[:-1] - speed[-1])  # to first order: crank angles grow by v/d
     assert found[:, 1] == pytest.approx(across, abs=2e-7)
     longer = made.axis.design({"links.frame": links.frame + play})
     for k, phi in enumerate(places):
         turned = [
-            motion.output_angle(d.linkage, train, phi) - motion.output_angle(d.linkage, train, start)
-            for d in (longer, made.nominal)
+            Output(d.linkage, train).angle(phi) - Output(d.linkage, train).angle(start) for d in (longer, made.nominal)
         ]
         assert found[k, 0] == pytest.approx(turned[0] - turned[1], abs=1e-12)
 
