@@ -357,19 +357,17 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
         >>> round(eccentricity_for_frame(24.0, 17.0, -54.0, 49.53221205192578), 9)
         22.0
     """
-    if is_internal(r1, r3, r5):
-        return _ring_eccentricity_for_frame(r1, r3, r5, frame)
-    low, high = eccentricity_range(r1, r3, r5)
-    longest = (r1 + 2.0 * r3 + r5) - low
-    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
-    shortest = math.sqrt(r5 * r5 + (r1 - high) * (r1 + high) * kappa)
-    if not shortest < frame < longest:
+    found = shape(r1, r3, r5)
+    square = r1 * r1 - (frame - r5) * (frame + r5) / found.kappa
+    if not found.low**2 < square < found.high**2:
+        ends = [r5 * r5 + (r1 - e) * (r1 + e) * found.kappa for e in (found.low, found.high)]
+        low, high = sorted(math.sqrt(max(0.0, end)) for end in ends)
         raise NoSolution(
-            f"frame: {unlike(frame, shortest if frame <= shortest else longest)} mm (for a momentary dwell of these "
-            f"gears {within(shortest, longest, 'mm')})",
-            fix=f"set the frame from {within(shortest, longest, 'mm')}",
+            f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
+            f"{within(low, high, 'mm')})",
+            fix=f"set the frame from {within(low, high, 'mm')}",
         )
-    return math.sqrt(r1 * r1 - (frame - r5) * (frame + r5) / kappa)
+    return math.sqrt(square)
 
 
 def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float | None:
@@ -389,15 +387,14 @@ def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float |
         16.418
     """
     try:
-        low, high = eccentricity_range(r1, r3, r5)
+        found = shape(r1, r3, r5)
     except NoSolution:
         return None
-    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
-    if distance >= (r1 + 2.0 * r3 + r5) - 2.0 * low:
+    if distance >= (r1 + 2.0 * r3 + r5) - 2.0 * found.low:
         return None
-    rest = kappa * r1 * r1 + (r5 - distance) * (r5 + distance)
-    crank = (math.sqrt(distance * distance + (1.0 + kappa) * rest) - distance) / (1.0 + kappa)
-    return min(crank, high)
+    rest = found.kappa * r1 * r1 + (r5 - distance) * (r5 + distance)
+    crank = (math.sqrt(distance * distance + (1.0 + found.kappa) * rest) - distance) / (1.0 + found.kappa)
+    return min(crank, found.high)
 
 
 def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
@@ -417,20 +414,17 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
         >>> round(balanced_eccentricity(24.0, 17.0, -60.0), 9)
         22.063426867
     """
-    if is_internal(r1, r3, r5):
-        return _ring_balanced_eccentricity(r1, r3, r5)
-    low, high = eccentricity_range(r1, r3, r5)
-    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
-    square = (r5 * r5 + kappa * r1 * r1 - (r1 + r3) ** 2 - (r3 + r5) ** 2) / (kappa - 1.0)
-    if not low * low < square < high * high:
+    found, square = shape(r1, r3, r5), (r1 + r3) ** 2 + (r3 + r5) ** 2
+    crank2 = (r5 * r5 + found.kappa * r1 * r1 - square) / (found.kappa - 1.0)
+    if not found.low**2 < crank2 < min(found.high**2, (r1 + r3) ** 2, (r3 + r5) ** 2):
         raise NoSolution(
             (
-                f"no balanced linkage with a momentary dwell has gears of {short(2 * r1)}, {short(2 * r3)} and "
-                f"{short(2 * r5)} mm reference diameter"
+                f"no balanced linkage with a momentary dwell has gears of {short(2 * abs(r1))}, {short(2 * r3)} and "
+                f"{short(2 * abs(r5))} mm reference diameter"
             ),
             fix="omit balanced, give crank or frame",
         )
-    return math.sqrt(square)
+    return math.sqrt(crank2)
 
 
 def is_internal(*radii: float) -> bool:
@@ -439,7 +433,7 @@ def is_internal(*radii: float) -> bool:
 
 
 class Shape(NamedTuple):
-    """What the radii of an arrangement with a momentary dwell give.
+    """What the radii of gears with a momentary dwell give.
 
     sigma : +1 or -1 - on which side of d* the output steps back
     kappa : float - d*^2 = r5^2 + (r1^2 - e^2) kappa
@@ -457,9 +451,9 @@ class Shape(NamedTuple):
 
 
 def shape(r1: float, r3: float, r5: float) -> Shape:
-    """Side, range and factor of the momentary dwell of gears with an internal mesh.
+    """Side, range and factor of the momentary dwell of a crank-rocker.
 
-    d*^2 = r5^2 + (r1^2 - e^2) kappa,   kappa = (P + sigma sqrt Q)/(2 r1^2) - 1
+    d*^2 = r5^2 + (r1^2 - e^2) kappa,   kappa = (P + sigma sqrt Q)/(2 r1^2) - 1,   S/e_lo - 1 without a ring
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii, negative for a gear in internal mesh with the idler
@@ -467,13 +461,16 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
         shape : Shape
     Raises
         NoSolution - for gears whose output never just stops: a crank gear that is a ring round the idler, or an output
-            ring that does not reach round the whole train
+            ring that does not reach round the whole train; without a ring as `eccentricity_range`
     Example
         >>> found = shape(24.0, 17.0, -54.0)
         >>> found.sigma, round(found.kappa, 9)
         (-1, -5.027825753)
     """
     s, t = r1 + 2.0 * r3 + r5, r1 + r3 + r5
+    if not is_internal(r1, r3, r5):
+        low, high = eccentricity_range(r1, r3, r5)
+        return Shape(1, s / low - 1.0, low, high, low, 1)
     q = 16.0 * r3 * (r3 + r5) * (r1 + r3) * t
     if r1 < -r3:
         raise NoSolution(
@@ -590,29 +587,3 @@ def _polished(output: GearedOutput, place: float) -> float | None:
         if abs(step) <= 1e-15:
             break
     return wrap(place) if abs(output.speed(place)) <= _ZERO * size else None
-
-
-def _ring_balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
-    """`balanced_eccentricity` of a train with a ring."""
-    found, square = shape(r1, r3, r5), (r1 + r3) ** 2 + (r3 + r5) ** 2
-    crank2 = (r5 * r5 + found.kappa * r1 * r1 - square) / (found.kappa - 1.0)
-    if not found.low**2 < crank2 < min(found.high**2, (r1 + r3) ** 2, (r3 + r5) ** 2):
-        raise NoSolution(
-            "these gears have no balanced linkage with a momentary dwell", fix="omit balanced, give crank or frame"
-        )
-    return math.sqrt(crank2)
-
-
-def _ring_eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> float:
-    """`eccentricity_for_frame` of a train with a ring."""
-    found = shape(r1, r3, r5)
-    square = r1 * r1 - (frame - r5) * (frame + r5) / found.kappa
-    if not found.low**2 < square < found.high**2:
-        ends = [r5 * r5 + (r1 - e) * (r1 + e) * found.kappa for e in (found.low, found.high)]
-        low, high = sorted(math.sqrt(max(0.0, end)) for end in ends)
-        raise NoSolution(
-            f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
-            f"{within(low, high, 'mm')})",
-            fix=f"set the frame from {within(low, high, 'mm')}",
-        )
-    return math.sqrt(square)
