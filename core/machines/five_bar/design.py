@@ -22,7 +22,7 @@ from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.base.wording import amount, short, unlike
+from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, outputs
 from gearlink.core.machines.five_bar.path import extent, rates, spread
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
@@ -33,7 +33,7 @@ from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, mesh_quantity, named, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.linkages.checks import target_check, transmission_check
+from gearlink.core.parts.linkages.checks import of_gears, target_check, transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE, POSE_ORDER
 from gearlink.core.parts.linkages.functions import Wanted
 from gearlink.core.studies.clearance import (
@@ -340,7 +340,6 @@ def _quality(bar: FunctionFiveBar, positions: Positions, wanted: float) -> tuple
 
 MESHES = ("input_idler", "idler_output")
 _TURN = 2.0 * math.pi
-_LINK_TOLERANCE = 1e-9
 
 
 class FiveBarParts(Meshed):
@@ -451,15 +450,7 @@ class FiveBarParts(Meshed):
 
     def _fixed_length(self, name: str) -> float:
         """The link that is the gears' centre distance; given too, it must agree."""
-        given, distance = getattr(self.spec.links, name), self.center_distance[0]
-        fixed = given is not None and self.spec.gears.profile_shift is None
-        if fixed and abs(given - distance) > _LINK_TOLERANCE * distance:
-            raise NoSolution(
-                f"{name}: {unlike(given, distance)} mm (centre distance of the gears {unlike(distance, given)} mm)",
-                key=f"links.{name}",
-                fix="omit it, or change module or teeth",
-            )
-        return distance
+        return of_gears(name, getattr(self.spec.links, name), self.center_distance[0], self.spec.gears)
 
     def _frame(self) -> float:
         """The frame of the path form."""

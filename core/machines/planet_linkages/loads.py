@@ -68,8 +68,6 @@ class TwoGearLoads(PlanetLinkageLoads):
         """The dwell: within the tolerance of the file, else within the band that the back-step fills."""
         step = self.design.back_step
         tolerance = None if step is None else 0.5 * step.angle
-        if self.spec.dwell is not None and self.spec.dwell.tolerance is not None:
-            tolerance = math.radians(self.spec.dwell.tolerance)
         if self.design.output_tolerance is not None:
             tolerance = self.design.output_tolerance
         if tolerance is None:

@@ -21,7 +21,7 @@ from gearlink.core.parts.gears.checks import GEAR_CHECKS
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.linkages import standstills
-from gearlink.core.parts.linkages.checks import check_linkage, target_check, transmission_check
+from gearlink.core.parts.linkages.checks import check_linkage, of_gears, target_check, transmission_check
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning
@@ -158,7 +158,6 @@ def _least_crank(excess: Callable[[float], float], limit: float, swing: float) -
     return crank
 
 
-_LINK_TOLERANCE = 1e-9
 # A root to the last bit leaves some ulp of the swing: far below what teeth can tell.
 _SWING_TOLERANCE = math.radians(1e-9)
 
@@ -298,14 +297,8 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
     @cached_property
     def linkage(self) -> FourBar:
         """The four-bar: a crank-rocker."""
-        links, rocker = self.spec.links, self.rocker_length
-        given = rocker if links.rocker is None or self.spec.gears.profile_shift is not None else links.rocker
-        if abs(given - rocker) > _LINK_TOLERANCE * rocker:
-            raise NoSolution(
-                f"rocker: {unlike(given, rocker)} mm (centre distance of the gears {unlike(rocker, given)} mm)",
-                key="links.rocker",
-                fix="omit it, or change module or teeth",
-            )
+        links = self.spec.links
+        rocker = of_gears("rocker", links.rocker, self.rocker_length, self.spec.gears)
         with at_key("links"):
             linkage = FourBar(self.crank_length, links.coupler, rocker, links.frame, self.spec.assembly)
             if check_linkage(linkage) != "crank-rocker":

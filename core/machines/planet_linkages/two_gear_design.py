@@ -13,14 +13,14 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Shown, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, unlike
+from gearlink.core.base.wording import short
 from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages import standstills
-from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
+from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, of_gears, transmission_check
 from gearlink.core.parts.linkages.codes import DWELL_CONDITION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 # As in the three-gear four-bar: links that no workshop can tell apart have one standstill, not two or none.
 _STANDSTILL_TOLERANCE = 1e-9
-_LINK_TOLERANCE = 1e-9
 
 QUANTITIES = (
     "planet_teeth",
@@ -216,14 +215,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
 
     def checked_crank(self) -> float:
         """Centre distance of the gears [mm], which a crank in the file must agree with."""
-        given, crank = self.spec.links.crank, self.crank_length
-        if given is not None and self.spec.gears.profile_shift is None and abs(given - crank) > _LINK_TOLERANCE * crank:
-            raise NoSolution(
-                f"crank: {unlike(given, crank)} mm (centre distance of the gears {unlike(crank, given)} mm)",
-                key="links.crank",
-                fix="omit it, or change module or teeth",
-            )
-        return crank
+        return of_gears("crank", self.spec.links.crank, self.crank_length, self.spec.gears)
 
     @property
     def linkage_kind(self) -> str:
@@ -368,23 +360,14 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     def candidates(self, check: str, /) -> Iterator[Remedy]:
         """The frame that a synthesis finds: no step of a grid meets the momentary dwell, few the window."""
         target = self.spec.target
+        from gearlink.core.machines.planet_linkages.two_gear_family import flattest, momentary_frame
+
         if check == "dwell-window" and self.spec.dwell_window is not None:
             with suppress(NoSolution):
-                yield (("links.frame", self._frame_for(math.radians(self.spec.dwell_window))),)
+                frame, _ = flattest(self.family, math.radians(self.spec.dwell_window), "the window")
+                yield (("links.frame", round(frame, 2)),)
         if check == "dwell-condition" and target is not None and target.motion == MOMENTARY_DWELL:
-            from gearlink.core.machines.planet_linkages.two_gear_family import Family, momentary_frame
-
-            links = self.spec.links
-            family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
-            yield (("links.frame", momentary_frame(family)),)
-
-    def _frame_for(self, window: float) -> float:
-        """The frame with which the output keeps nearest to its place over a window [mm], to 0.01 mm."""
-        from gearlink.core.machines.planet_linkages.two_gear_family import Family, flattest
-
-        links = self.spec.links
-        family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
-        return round(flattest(family, window, "the window")[0], 2)
+            yield (("links.frame", momentary_frame(self.family)),)
 
     def check_dwell_window(self) -> Iterator[Check]:
         """GL313 where the file asks for a window within its tolerance."""

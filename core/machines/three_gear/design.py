@@ -323,6 +323,15 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         return self.output.dwell_angle
 
     @property
+    def dwell_stretch(self) -> tuple[float, float] | None:
+        """Start and crank angle of the dwell [rad]: within the tolerance where the file gives one, else phi13."""
+        if self.tolerance_dwell is not None:
+            return self.tolerance_dwell.start, self.tolerance_dwell.crank_angle
+        if self.back_step is not None and self.dwell_angle is not None:
+            return self.back_step.start, self.dwell_angle
+        return None
+
+    @property
     def dwell_angle_approximate(self) -> float | None:
         """1.5 phi12 [rad] (thesis (4-17))."""
         return None if self.back_step_crank_angle is None else 1.5 * self.back_step_crank_angle

@@ -58,24 +58,14 @@ class ThreeGearLoads(LoadsDesign):
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The dwell: within the tolerance where the file gives one, else the back-step and the return stroke."""
-        zone = self._dwell_of(self.design)
+        zone = self.design.dwell_stretch
         if zone is not None and self.design.tolerance_dwell is None and self.speed < 0.0:
             # Backwards the back-step begins where it ends forwards, and the way back follows there: as in the mirror.
-            mirror = ThreeGearFourBar(self.spec.model_copy(update={"assembly": -self.spec.assembly}))
-            found = self._dwell_of(mirror)
+            found = ThreeGearFourBar(self.spec.model_copy(update={"assembly": -self.spec.assembly})).dwell_stretch
             zone = None if found is None else (-found[0] - found[1], found[1])
         if zone is None:
             return []
         return [(zone[0] + 2.0 * math.pi * turn, zone[1]) for turn in range(self.turns)]
-
-    @staticmethod
-    def _dwell_of(design: ThreeGearFourBar) -> tuple[float, float] | None:
-        """Start and width of the dwell of a crank that turns forwards [rad]."""
-        if design.tolerance_dwell is not None:
-            return design.tolerance_dwell.start, design.tolerance_dwell.crank_angle
-        if design.back_step is not None and design.dwell_angle is not None:
-            return design.back_step.start, design.dwell_angle
-        return None
 
     def counterweights(self) -> dict[str, complex]:
         """Those of the full force balance; the idler counts at C."""

@@ -165,15 +165,13 @@ class ThreeGearSamples:
 
     @cached_property
     def _window(self) -> tuple[float, float]:
-        """Crank angles that the dwell is meant for: within the tolerance where one is given, else phi13."""
-        nominal = self.nominal
-        if nominal.tolerance_dwell is not None:
-            return nominal.tolerance_dwell.start, nominal.tolerance_dwell.crank_angle
-        if nominal.back_step is None or nominal.dwell_angle is None:
+        """Start and crank angle of the nominal drive's dwell."""
+        found = self.nominal.dwell_stretch
+        if found is None:
             raise NoSolution(
                 "dwell_swing needs a dwell: a back-step, or dwell_tolerance in the file", key="tolerance.require"
             )
-        return nominal.back_step.start, nominal.dwell_angle
+        return found
 
     def _made(self, cut: ThreeGearFourBar, samples: DriveSamples, i: int, in_window: bool) -> TolerancedDrive:
         """One of the drives, whose teeth are those of a drive as cut: its gears may lie at other centre distances."""
@@ -197,7 +195,7 @@ class ThreeGearSamples:
     @property
     def has_window(self) -> bool:
         """Whether the nominal drive dwells."""
-        return self.nominal.tolerance_dwell is not None or self.nominal.dwell_angle is not None
+        return self.nominal.dwell_stretch is not None
 
     # Over the cycle
 
@@ -737,16 +735,12 @@ class ThreeGearRegister(RegisterDesign):
         """The dwell: within the tolerance where the file gives one, else phi13."""
         if at != "dwell":
             raise no_such_place(at, ("dwell",))
-        design = self.design
-        if design.tolerance_dwell is not None:
-            start, length = design.tolerance_dwell.start, design.tolerance_dwell.crank_angle
-        elif design.back_step is not None and design.dwell_angle is not None:
-            start, length = design.back_step.start, design.dwell_angle
-        else:
+        found = self.design.dwell_stretch
+        if found is None:
             raise NoSolution(
                 "this drive has no dwell", key="register.at", fix="give dwell_tolerance, or --at an input angle"
             )
-        return start, start + length
+        return found[0], found[0] + found[1]
 
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
         """Every source of the file, and the wind-up of the output's shaft."""

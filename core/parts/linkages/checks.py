@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.judged import Judged, below
 from gearlink.core.base.report import Check, Shown, safely_above, without_noise
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANSMISSION_ANGLE
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ _LITTLE = 5.0
 EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
 _NARROW = 0.05  # mm, an interval of the frame that a workshop holds with care
 WINDOW_FIT = 1e-9
+_LINK_TOLERANCE = 1e-9
 
 
 def transmission_check(
@@ -95,6 +96,27 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
 def edge_judged(share: Any) -> Judged:
     """GL314 of the shares of bands that back-steps take."""
     return Judged(DWELL_EDGE, share, EDGE, False, (share > EDGE) & (share <= 1.0 + WINDOW_FIT), "1")
+
+
+def of_gears(link: str, given: float | None, distance: float, gears: Any) -> float:
+    """The length of a link that is the centre distance of two gears; given too, it must agree.
+
+    Parameters
+        link : str - its key below `links`
+        given, distance : float [mm] - in the file, and by the gears
+        gears : the section; with profile shifts a length in the file is what the distance was found for
+    Returns
+        length : float [mm]
+    Raises
+        NoSolution - for another length in the file
+    """
+    if given is not None and gears.profile_shift is None and abs(given - distance) > _LINK_TOLERANCE * distance:
+        raise NoSolution(
+            f"{link}: {unlike(given, distance)} mm (centre distance of the gears {unlike(distance, given)} mm)",
+            key=f"links.{link}",
+            fix="omit it, or change module or teeth",
+        )
+    return distance
 
 
 def check_linkage(linkage: FourBar) -> str:
