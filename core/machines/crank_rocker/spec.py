@@ -20,9 +20,8 @@ from gearlink.core.base.spec import (
     Spec,
 )
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
-from gearlink.core.parts.linkages.spec_sections import FourLinks
+from gearlink.core.parts.linkages.spec_sections import FourLinks, Plain, require_function
 
-Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 _SIZES = ("crank", "coupler", "rocker", "frame")
 
 
@@ -113,18 +112,7 @@ class Function(Spec):
                     "GL106", "give pairs, or name, x, input_swing, output_swing", {"key": "pairs"}
                 )
             raise PydanticCustomError("GL106", "a function needs {missing}", {"key": missing, "missing": missing})
-        if (self.name == "power") != (self.exponent is not None):
-            message = "exponent goes with power, and a power needs one\n"
-            message += "give exponent" if self.name == "power" else "omit exponent"
-            raise PydanticCustomError("GL111", "{message}", {"key": "exponent", "message": message})
-        if self.x is not None and self.x[0] == self.x[1]:
-            raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
-        if self.output_swing == 0.0:
-            raise PydanticCustomError(
-                "GL108",
-                "an output that is at rest is no function\ngive output_swing above or below 0",
-                {"key": "output_swing"},
-            )
+        require_function(self.name, self.exponent, self.x, self.output_swing)
         return self
 
 

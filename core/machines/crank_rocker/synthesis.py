@@ -575,14 +575,10 @@ class FunctionSynthesis(_Synthesis):
         task = self.spec.function
         if task is None or task.pairs is not None:
             return None
-        from gearlink.core.parts.linkages.functions import CIRCULAR, Wanted
+        from gearlink.core.parts.linkages.functions import Wanted
 
-        assert task.name is not None, "the spec has seen to it"
-        assert task.x is not None, "the same"
-        ends = [math.radians(each) if task.name in CIRCULAR else each for each in task.x]
-        swings = [math.radians(each or 0.0) for each in (task.input_swing, task.output_swing)]
         with at_key("function"):
-            wanted = Wanted(task.name, (ends[0], ends[1]), swings[0], swings[1], task.exponent or 1.0)
+            wanted = Wanted.of(task)
         starts = [None if each is None else math.radians(each) for each in (task.input_start, task.output_start)]
         free = None in starts
         least = math.radians(self.spec.limits.transmission_angle) if free else 0.0

@@ -11,21 +11,21 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.arrays import Points, Reals, product
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
-from gearlink.core.parts.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
+from gearlink.core.parts.linkages.dyad import close_dyad, require_lengths, require_span, worst_transmission
 from gearlink.core.parts.linkages.functions import Wanted
+
+Positions = Sequence[tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -154,27 +154,10 @@ class FunctionFiveBar:
         Raises
             NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
         """
-        (low, least), (high, greatest) = self.reach_extremes(start, end)
-        longest, shortest = self.follower + self.output, abs(self.follower - self.output)
-        if greatest >= longest:
-            raise NoSolution(
-                (
-                    f"the five-bar cannot be assembled: distance CE {unlike(greatest, longest)} mm (limit <= "
-                    f"{unlike(longest, greatest)} mm, follower + output) at input angle {short(math.degrees(high))} deg"
-                ),
-                fix=f"lengthen follower and output by more than {safely_above(greatest - longest)} mm together"
-                + _or("shorten the coupler", free),
-            )
-        if least <= shortest:
-            raise NoSolution(
-                (
-                    f"the five-bar cannot be assembled: distance CE {unlike(least, shortest)} mm (limit >= "
-                    f"{unlike(shortest, least)} mm, follower - output) at input angle {short(math.degrees(low))} deg"
-                ),
-                fix=f"reduce the difference of follower and output by more than {safely_above(shortest - least)} mm"
-                + _or("lengthen the frame", free),
-            )
-        return (low, least), (high, greatest)
+        extremes, links = self.reach_extremes(start, end), {"follower": self.follower, "output": self.output}
+        ways = [_or(words, free) for words in ("shorten the coupler", "lengthen the frame")]
+        require_span("CE", links, extremes, (ways[0], ways[1]))
+        return extremes
 
     def min_transmission_angle(self, start: float, end: float) -> tuple[float, float]:
         """Minimum angle between follower and output over a range, an obtuse one counted from the other side.
@@ -186,10 +169,21 @@ class FunctionFiveBar:
         Source
             own derivation; VDI 2142
         """
-        return min(
-            (acute(transmission_angle(distance, self.follower, self.output)), place)
-            for place, distance in self.closure(start, end)
-        )
+        return worst_transmission(self.closure(start, end), self.follower, self.output)
+
+    def position_errors(self, positions: Positions) -> list[float]:
+        """Output angle reached less that asked for at each position, on one continuous motion [rad].
+
+        Parameters
+            positions : sequence of (phi, psi) [rad] - phi ascending
+        Raises
+            NoSolution - where the five-bar opens between the first and the last
+        Notes
+            Whole turns count: a linkage that reaches the second angle by going round the other way misses it.
+        """
+        reached = self.output_angles([phi for phi, _ in positions])
+        turns = 2.0 * math.pi * round((reached[0] - positions[0][1]) / (2.0 * math.pi))
+        return [angle - turns - psi for angle, (_, psi) in zip(reached, positions, strict=True)]
 
     def output_angles(self, angles: list[float]) -> list[float]:
         """Output angles over ascending input angles, without jumps from the first on [rad].

@@ -15,11 +15,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
-from gearlink.core.parts.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
+from gearlink.core.parts.linkages.dyad import close_dyad, require_lengths, require_span, worst_transmission
 
 TURN = 2.0 * math.pi
 
@@ -112,33 +110,9 @@ class PathFiveBar:
         Raises
             NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
         """
-        (low, least), (high, greatest) = self.span_extremes
-        longest, shortest = self.coupler + self.follower, abs(self.coupler - self.follower)
-        turn = 360 * self.period_turns
-        if greatest >= longest:
-            raise NoSolution(
-                (
-                    f"the five-bar cannot be assembled: distance BD {unlike(greatest, longest)} mm (limit <= "
-                    f"{unlike(longest, greatest)} mm, coupler + follower) at input angle "
-                    f"{short(math.degrees(high))} deg (of {turn})"
-                ),
-                fix=(
-                    f"lengthen them by more than {safely_above(greatest - longest, 4)} mm together, or "
-                    "shorten input or output"
-                ),
-            )
-        if least <= shortest:
-            raise NoSolution(
-                (
-                    f"the five-bar cannot be assembled: distance BD {unlike(least, shortest)} mm (limit >= "
-                    f"{unlike(shortest, least)} mm, coupler - follower) at input angle "
-                    f"{short(math.degrees(low))} deg (of {turn})"
-                ),
-                fix=(
-                    f"reduce the difference of coupler and follower by more than {safely_above(shortest - least, 4)} "
-                    "mm, or shorten input or output"
-                ),
-            )
+        links = {"coupler": self.coupler, "follower": self.follower}
+        ways = (", or shorten input or output",) * 2
+        require_span("BD", links, self.span_extremes, ways, aside=f" (of {360 * self.period_turns})")
 
     def min_transmission_angle(self) -> tuple[float, float]:
         """Minimum angle between coupler and follower over the period, an obtuse one counted from the other side.
@@ -151,10 +125,7 @@ class PathFiveBar:
             own derivation; VDI 2142
         """
         self.closure()
-        return min(
-            (acute(transmission_angle(distance, self.coupler, self.follower)), place)
-            for place, distance in self.span_extremes
-        )
+        return worst_transmission(self.span_extremes, self.coupler, self.follower)
 
     def coupler_angle(self, phi: float) -> float:
         """Direction of the coupler B->C in (-pi, pi] [rad].

@@ -21,9 +21,7 @@ from gearlink.core.base.spec import (
 )
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits, TurnAngle, require_rim
-from gearlink.core.parts.linkages.spec_sections import InputRange
-
-Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+from gearlink.core.parts.linkages.spec_sections import InputRange, Plain, require_function
 
 
 class FiveBarGears(TrainKeys):
@@ -119,16 +117,7 @@ class WantedFunction(Spec):
 
     @model_validator(mode="after")
     def _whole(self) -> WantedFunction:
-        if (self.name == "power") != (self.exponent is not None):
-            message = "exponent goes with power, and a power needs one\n"
-            message += "give exponent" if self.name == "power" else "omit exponent"
-            raise PydanticCustomError("GL111", "{message}", {"key": "exponent", "message": message})
-        if self.x[0] == self.x[1]:
-            raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
-        if self.output_swing == 0.0:
-            raise PydanticCustomError(
-                "GL108", "an output at rest is no function\ngive output_swing above or below 0", {"key": "output_swing"}
-            )
+        require_function(self.name, self.exponent, self.x, self.output_swing)
         return self
 
 

@@ -6,7 +6,10 @@ import math
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
-from gearlink.core.base.wording import unlike
+from gearlink.core.base.wording import short, unlike
+
+Extremes = tuple[tuple[float, float], tuple[float, float]]
+"""Minimum and maximum distance of two moving pins, each as (input angle [rad], distance [mm])."""
 
 
 def close_dyad(start: complex, end: complex, first: float, second: float, side: int) -> complex:
@@ -93,3 +96,48 @@ def require_dyad(distance: float, first: float, second: float) -> None:
             "two links)",
             fix=f"reduce their difference by {safely_above(shortest - distance, 4)} mm",
         )
+
+
+def worst_transmission(extremes: Extremes, first: float, second: float) -> tuple[float, float]:
+    """Minimum angle between two links over what they span, an obtuse one counted from the other side.
+
+    Parameters
+        extremes : Extremes - of the distance of their ends
+        first, second : float [mm]
+    Returns
+        angle, place : float, float [rad] - and the input angle at which it occurs
+    """
+    return min((acute(transmission_angle(distance, first, second)), place) for place, distance in extremes)
+
+
+def require_span(
+    ends: str, links: dict[str, float], extremes: Extremes, ways: tuple[str, str], *, aside: str = ""
+) -> None:
+    """Refuse a five-bar whose last two links do not reach from pin to pin at every input angle.
+
+    |b - c| < n < b + c
+
+    Parameters
+        ends : str - the pins
+        links : name and length [mm] of both links
+        extremes : Extremes - of n
+        ways : str - what helps besides against too long, and against too short a distance
+        aside : str - about the input angle
+    Raises
+        NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
+    """
+    (low, least), (high, greatest) = extremes
+    (first, b), (second, c) = links.items()
+    if greatest >= b + c:
+        place, distance, limit, law, way = high, greatest, b + c, f"{first} + {second}", ways[0]
+        side, change, both = "<=", f"lengthen {first} and {second}", " together"
+    elif least <= abs(b - c):
+        place, distance, limit, law, way = low, least, abs(b - c), f"{first} - {second}", ways[1]
+        side, change, both = ">=", f"reduce the difference of {first} and {second}", ""
+    else:
+        return
+    raise NoSolution(
+        f"the five-bar cannot be assembled: distance {ends} {unlike(distance, limit)} mm (limit {side} "
+        f"{unlike(limit, distance)} mm, {law}) at input angle {short(math.degrees(place))} deg{aside}",
+        fix=f"{change} by more than {safely_above(abs(distance - limit), 4)} mm{both}{way}",
+    )

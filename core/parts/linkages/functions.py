@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -37,6 +38,13 @@ class Wanted:
     input_swing: float
     output_swing: float
     exponent: float = 1.0
+
+    @classmethod
+    def of(cls, section: Any) -> Wanted:
+        """That of a section of a file, in deg."""
+        low, high = (math.radians(each) if section.name in CIRCULAR else each for each in section.x)
+        swings = math.radians(section.input_swing), math.radians(section.output_swing)
+        return cls(section.name, (low, high), *swings, section.exponent or 1.0)
 
     def __post_init__(self) -> None:
         s = np.linspace(0.0, 1.0, 721)

@@ -10,6 +10,8 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.base.spec import Distance, Length, Ratio, Spec
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
 
+Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+
 
 class InputRange(Spec):
     """Input angles over which a linkage moves."""
@@ -85,6 +87,22 @@ class Feed(Spec):
         if self.pitch is not None and self.belt_thickness:
             raise PydanticCustomError("GL111", "a chain has no belt_thickness\nomit it", {"key": "belt_thickness"})
         return self
+
+
+def require_function(
+    name: str | None, exponent: float | None, x: list[float] | None, output_swing: float | None
+) -> None:
+    """Refuse a function whose exponent, interval or output swing does not go with it."""
+    if (name == "power") != (exponent is not None):
+        message = "exponent goes with power, and a power needs one\n"
+        message += "give exponent" if name == "power" else "omit exponent"
+        raise PydanticCustomError("GL111", "{message}", {"key": "exponent", "message": message})
+    if x is not None and x[0] == x[1]:
+        raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
+    if output_swing == 0.0:
+        raise PydanticCustomError(
+            "GL108", "an output at rest is no function\ngive output_swing above or below 0", {"key": "output_swing"}
+        )
 
 
 class FourLinks(Spec):

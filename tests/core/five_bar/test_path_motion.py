@@ -22,11 +22,11 @@ from hypothesis import strategies as st
 from sweeps import ALL, examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.five_bar.design import five_bar_for_positions, position_errors
 from gearlink.core.machines.five_bar.fit import fit_path, judge
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import coupler_angles, distances, extent, points, rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
+from gearlink.core.machines.five_bar.position_fit import five_bar_for_positions
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.linkages.dyad import close_dyad, transmission_angle
@@ -241,7 +241,7 @@ def test_positions_are_met_on_the_real_motion(count):
     start = FunctionFiveBar(45.0, 27.0, 72.0, 54.0, 90.0, 1.8, RADIANS(60.0))
     bar = five_bar_for_positions(start, positions, RADIANS(40.0))
     assert (bar.input, bar.coupler_ratio) == (45.0, 1.8)
-    assert max(map(abs, position_errors(bar, positions))) < 1e-12
+    assert max(map(abs, bar.position_errors(positions))) < 1e-12
     assert bar.min_transmission_angle(positions[0][0], positions[-1][0])[0] >= RADIANS(40.0)
     for phi, psi in positions:  # the loop itself, by complex numbers
         gap = bar.joint(phi) - bar.frame - cmath.rect(bar.output, psi)
@@ -263,9 +263,9 @@ def test_a_start_with_a_link_far_too_long_is_refused(length):
 def test_whole_turns_count_as_errors():
     reached = FUNCTION.output_angles([1.2, 2.0])
     exact = [(1.2, reached[0]), (2.0, reached[1])]
-    assert position_errors(FUNCTION, exact) == pytest.approx([0.0, 0.0], abs=1e-14)
+    assert FUNCTION.position_errors(exact) == pytest.approx([0.0, 0.0], abs=1e-14)
     wound = [(1.2, reached[0]), (2.0, reached[1] + 2.0 * math.pi)]
-    assert position_errors(FUNCTION, wound)[1] == pytest.approx(-2.0 * math.pi, abs=1e-14)
+    assert FUNCTION.position_errors(wound)[1] == pytest.approx(-2.0 * math.pi, abs=1e-14)
 
 
 @pytest.mark.quick(2)
