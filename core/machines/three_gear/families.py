@@ -30,13 +30,11 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.momentary import (
+    Shape,
     balanced_eccentricity,
     eccentricity_for_frame,
-    eccentricity_range,
     is_internal,
     least_eccentricity,
-    momentary_frame_length,
-    ring_tangency,
     shape,
 )
 from gearlink.core.machines.three_gear.train import GearTrain
@@ -140,18 +138,24 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
         >>> round(family.low, 9), family.high
         (49.532212052, 26.0)
     """
-    if is_internal(r1, r3, r5):
-        return _ring_with_crank(r1, r3, r5, crank, assembly)
-    b, c = r1 + r3, r3 + r5
-    least, high = frames_of(crank, b, c)
-    e_lo, e_up = _momentary_range(r1, r3, r5)
-    low: float | None = least
-    if crank <= e_lo:
-        low = None
-    elif crank < e_up:
-        low = max(least, momentary_frame_length(r1, r3, r5, crank))
-    why = _never_stops(crank, e_lo)
-    return Family(lambda d: FourBar(crank, b, c, d, assembly), least, low, high, why)
+    b, c = abs(r1 + r3), abs(r3 + r5)
+    shortest, longest = frames_of(crank, b, c)
+    found = _shape(r1, r3, r5)
+    # on the side where the output steps back: of a ring round the whole train a frame shorter than d*
+    least, high = (shortest, longest) if found.sigma > 0 else (longest, shortest)
+
+    def linkage(d: float) -> FourBar:
+        return FourBar(crank, b, c, d, assembly)
+
+    if crank <= found.low:
+        return Family(linkage, least, None, high, _never_stops(crank, found.low))
+    if crank >= found.high:  # steps back with every frame
+        return Family(linkage, least, least, high)
+    inside = min(max(math.sqrt(found.frame_squared(crank)), shortest), longest)
+    if inside == high:
+        why = f"crank: {short(crank)} mm, of which no crank-rocker steps back\nchange the crank or the gears"
+        return Family(linkage, least, None, high, why)
+    return Family(linkage, least, inside, high)
 
 
 def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1) -> Family:
@@ -302,12 +306,15 @@ def _measure(train: GearTrain, of_stepping: Callable[[Any], float]) -> Callable[
     return measure
 
 
-def _momentary_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
+def _shape(r1: float, r3: float, r5: float) -> Shape:
+    """`shape`; of gears without a ring that have no momentary dwell an empty range of cranks."""
     try:
-        return eccentricity_range(r1, r3, r5)
+        return shape(r1, r3, r5)
     except NoSolution:
-        low = least_eccentricity(r1, r3, r5)
-        return low, low
+        if is_internal(r1, r3, r5):
+            raise
+    low = least_eccentricity(r1, r3, r5)
+    return Shape(1, r1, r5, 0.0, low, low, low, 1)
 
 
 def _deg(angle: float) -> str:
@@ -408,30 +415,7 @@ def words(found: tuple[Room, ...]) -> str:
     return f"set {found[0].key} from {within(found[0].low, found[0].high, 'mm')}" if found else ""
 
 
-# Trains with a ring: on the side where the output steps back, of r5 < 0 that is a frame shorter than d*
-
-
-def _ring_with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
-    """`with_crank` of a train with a ring."""
-    b, c = abs(r1 + r3), abs(r3 + r5)
-    shortest, longest = frames_of(crank, b, c)
-
-    def linkage(d: float) -> FourBar:
-        return FourBar(crank, b, c, d, assembly)
-
-    found = shape(r1, r3, r5)
-    least, high = (shortest, longest) if found.sigma > 0 else (longest, shortest)
-    if crank >= found.high:  # steps back with every frame
-        return Family(linkage, least, least, high)
-    if not found.low < crank:
-        return Family(linkage, least, None, high, _never_stops(crank, found.low))
-    touching = ring_tangency(r1, r3, r5, crank)
-    assert touching is not None, "a crank in the range has a frame that just stops the output"
-    inside = min(max(touching.frame, shortest), longest)
-    if inside == high:
-        why = f"crank: {short(crank)} mm, of which no crank-rocker steps back\nchange the crank or the gears"
-        return Family(linkage, least, None, high, why)
-    return Family(linkage, least, inside, high)
+# Trains with a ring
 
 
 def _ring_with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1) -> Family:
@@ -451,7 +435,7 @@ def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assemb
         >>> round(momentary_ring_linkage(24.0, 17.0, -54.0, 22.0).frame, 9)
         49.532212052
     """
-    family, found = _ring_with_crank(r1, r3, r5, crank, assembly), shape(r1, r3, r5)
+    family, found = with_crank(r1, r3, r5, crank, assembly), shape(r1, r3, r5)
     if family.low is None:
         raise NoSolution(family.why)
     if crank >= found.high:
@@ -475,8 +459,7 @@ def _rising(r1: float, r3: float, r5: float, linkage: Callable[[float], FourBar]
     found = shape(r1, r3, r5)
 
     def beyond(e: float) -> float:
-        star = r5 * r5 + (r1 - e) * (r1 + e) * found.kappa
-        return found.sigma * (linkage(e).frame ** 2 - star)
+        return found.sigma * (linkage(e).frame ** 2 - found.frame_squared(e))
 
     most = high * (1.0 - 1e-12)
     if beyond(most) <= 0.0:

@@ -360,8 +360,7 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
     found = shape(r1, r3, r5)
     square = r1 * r1 - (frame - r5) * (frame + r5) / found.kappa
     if not found.low**2 < square < found.high**2:
-        ends = [r5 * r5 + (r1 - e) * (r1 + e) * found.kappa for e in (found.low, found.high)]
-        low, high = sorted(math.sqrt(max(0.0, end)) for end in ends)
+        low, high = sorted(math.sqrt(max(0.0, found.frame_squared(e))) for e in (found.low, found.high))
         raise NoSolution(
             f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
             f"{within(low, high, 'mm')})",
@@ -436,6 +435,7 @@ class Shape(NamedTuple):
     """What the radii of gears with a momentary dwell give.
 
     sigma : +1 or -1 - on which side of d* the output steps back
+    r1, r5 : float [mm]
     kappa : float - d*^2 = r5^2 + (r1^2 - e^2) kappa
     low, high : float [mm] - cranks between which some frame just stops the output
     offset : float [mm] - e_t = w/x of the tangency
@@ -443,11 +443,17 @@ class Shape(NamedTuple):
     """
 
     sigma: int
+    r1: float
+    r5: float
     kappa: float
     low: float
     high: float
     offset: float
     facing: int
+
+    def frame_squared(self, e: float) -> float:
+        """d*^2 of a crank [mm^2]."""
+        return self.r5 * self.r5 + (self.r1 - e) * (self.r1 + e) * self.kappa
 
 
 def shape(r1: float, r3: float, r5: float) -> Shape:
@@ -470,7 +476,7 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
     s, t = r1 + 2.0 * r3 + r5, r1 + r3 + r5
     if not is_internal(r1, r3, r5):
         low, high = eccentricity_range(r1, r3, r5)
-        return Shape(1, s / low - 1.0, low, high, low, 1)
+        return Shape(1, r1, r5, s / low - 1.0, low, high, low, 1)
     q = 16.0 * r3 * (r3 + r5) * (r1 + r3) * t
     if r1 < -r3:
         raise NoSolution(
@@ -494,7 +500,7 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
         raise NoSolution("no crank makes these gears just stop the output", fix="change the teeth")
     facing = 1 if (r1 + r3) * (r3 + r5) > 0.0 else -1
     low = math.sqrt(max(0.0, reach))
-    return Shape(sigma, whole / (2.0 * r1 * r1) - 1.0, low, abs(r1), 2.0 * s * r1 * r1 / whole, facing)
+    return Shape(sigma, r1, r5, whole / (2.0 * r1 * r1) - 1.0, low, abs(r1), 2.0 * s * r1 * r1 / whole, facing)
 
 
 def ring_tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency | None:
@@ -518,7 +524,7 @@ def ring_tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tange
         return None
     span = (r1 - found.low) * (r1 + found.low)
     x2 = (r1 - eccentricity) * (r1 + eccentricity) / span
-    square = r5 * r5 + (r1 - eccentricity) * (r1 + eccentricity) * found.kappa
+    square = found.frame_squared(eccentricity)
     if not 0.0 < x2 < 1.0 or square <= 0.0:
         return None
     sine = math.sqrt((eccentricity - found.low) * (eccentricity + found.low) / span)
