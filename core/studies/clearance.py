@@ -503,7 +503,7 @@ def coupler_joint(linkage: FourBar) -> Reach:
     """
     from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 
-    near, far = joint_to_crank_pivot(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly)
+    near, far = joint_to_crank_pivot(linkage)
     return Reach(near.distance, far.distance, near.crank_angle, far.crank_angle)
 
 

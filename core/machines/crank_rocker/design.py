@@ -65,9 +65,7 @@ class DeadCenters:
     """
 
     def __init__(self, linkage: FourBar) -> None:
-        near, far = joint_to_crank_pivot(
-            linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly
-        )
+        near, far = joint_to_crank_pivot(linkage)
         self.outer, self.inner = far.crank_angle, near.crank_angle
         turned = solve(linkage, self.inner).rocker_angle - solve(linkage, self.outer).rocker_angle
         to_inner = (self.inner - self.outer) % TURN

@@ -473,9 +473,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
     @staticmethod
     def _dead_centers(linkage: FourBar) -> tuple[float, float]:
         """Crank angles where crank and coupler fold and stretch (in a drag link: nearest and farthest C) [rad]."""
-        folded, stretched = joint_to_crank_pivot(
-            linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly
-        )
+        folded, stretched = joint_to_crank_pivot(linkage)
         return folded.crank_angle, stretched.crank_angle
 
     @cached_property

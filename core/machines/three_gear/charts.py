@@ -145,24 +145,18 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
 
 
 def _ratios(i3: ArrayLike) -> Reals:
-    ratio = np.asarray(i3, dtype=float)
-    wrong = ~((ratio > -np.inf) & (ratio < 0.0))
-    if np.any(wrong):
-        raise NoSolution(
-            f"i3: {ratio[wrong].flat[0]:.4g} (limit < 0: i3 = -z3/z5, idler and output gear mesh externally)"
-        )
-    return ratio
+    return _checked(i3, symmetric.check_ratio)
 
 
 def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
-    phi12 = np.asarray(back_step_crank_angle, dtype=float)
-    wrong = ~((phi12 >= 0.0) & (phi12 < math.pi))
-    if np.any(wrong):
-        raise NoSolution(
-            f"crank angle of the back-step: {unlike(math.degrees(float(phi12[wrong].flat[0])), 180.0)} deg (from 0, a "
-            "momentary dwell, to below 180 deg)"
-        )
-    return np.asarray(0.5 * phi12)
+    return 0.5 * _checked(back_step_crank_angle, symmetric.check_back_step_crank_angle)
+
+
+def _checked(values: ArrayLike, check: Callable[[float], None]) -> Reals:
+    found = np.asarray(values, dtype=float)
+    for value in found.flat:
+        check(float(value))
+    return found
 
 
 def window_over_ratio(i3: ArrayLike, tolerance: float) -> Reals:

@@ -10,7 +10,8 @@ import math
 from typing import NamedTuple
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.wording import short, unlike
+from gearlink.core.base.wording import short
+from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 
@@ -35,8 +36,7 @@ def rocker_swing(linkage: FourBar) -> float | None:
     """
     if linkage.kind() != "crank-rocker":
         return None
-    ends = joint_to_crank_pivot(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly)
-    folded, stretched = (solve(linkage, end.crank_angle).rocker_angle for end in ends)
+    folded, stretched = (solve(linkage, end.crank_angle).rocker_angle for end in joint_to_crank_pivot(linkage))
     return abs(folded - stretched)
 
 
@@ -47,16 +47,13 @@ class Approach(NamedTuple):
     crank_angle: float
 
 
-def joint_to_crank_pivot(
-    crank: float, coupler: float, rocker: float, frame: float, assembly: int = 1
-) -> tuple[Approach, Approach]:
+def joint_to_crank_pivot(linkage: FourBar) -> tuple[Approach, Approach]:
     """Minimum and maximum distance of the coupler joint C from the crank pivot A over a revolution of the crank.
 
     AC = max(b - a, c - d) ... min(a + b, c + d)
 
     Parameters
-        crank, coupler, rocker, frame : float [mm] - a, b, c, d of a linkage whose crank turns fully
-        assembly : +1 or -1 - +1: C left of the vector B->D
+        linkage : FourBar [mm] - a, b, c, d of one whose crank turns fully
     Returns
         nearest, farthest : Approach
     Raises
@@ -66,12 +63,12 @@ def joint_to_crank_pivot(
         crank-rocker the bounds are the dead centres, b - a and a + b; in a drag link C passes the line AD
         twice, at c - d and c + d. The crank angle there comes from the half-angle tangent.
     Example
-        >>> near, far = joint_to_crank_pivot(38.85708906, 112.0, 112.0, 153.5517067)
+        >>> near, far = joint_to_crank_pivot(FourBar(38.85708906, 112.0, 112.0, 153.5517067))
         >>> round(near.distance, 3), round(far.distance, 3)
         (73.143, 150.857)
     """
-    _require_full_turn(crank, coupler, rocker, frame)
-    a, b, c, d = crank, coupler, rocker, frame
+    check_linkage(linkage)
+    a, b, c, d, assembly = linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly
     if b - a > abs(c - d):
         nearest = _approach(b - a, math.pi, assembly * _angle(b - a, d, c))
     else:
@@ -99,23 +96,3 @@ def _angle(p: float, q: float, opposite: float) -> float:
             fix="shorten the crank",
         )
     return 2.0 * math.atan2(math.sqrt(near), math.sqrt(far))
-
-
-def _require_full_turn(crank: float, coupler: float, rocker: float, frame: float) -> None:
-    least, most = abs(coupler - rocker), coupler + rocker
-    if abs(frame - crank) > least and frame + crank < most:
-        return
-    unmet = (
-        f"frame + crank {unlike(frame + crank, most)} mm (limit < {unlike(most, frame + crank)} mm, coupler + rocker)"
-    )
-    if not abs(frame - crank) > least:
-        between = unlike(abs(frame - crank), least)
-        unmet = f"|frame - crank| {between} mm (limit > {unlike(least, abs(frame - crank))} mm, |coupler - rocker|)"
-    raise NoSolution(
-        (
-            f"the crank of {short(crank)} mm does not turn fully (coupler {short(coupler)}, rocker {short(rocker)}, "
-            "frame "
-            f"{short(frame)} mm): {unmet}"
-        ),
-        fix="shorten the crank",
-    )
