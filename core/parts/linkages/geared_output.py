@@ -19,7 +19,7 @@ from gearlink.core.parts.linkages.standstills import (
     BackStep,
     OutputRates,
     Turning,
-    back_steps,
+    backward,
     gain,
     regained,
     standstills,
@@ -77,8 +77,9 @@ class GearedOutput(OutputRates):
         return self._turned(crank_angle, solve(self.linkage, crank_angle))
 
     def _turned(self, crank_angle: float, here: FourBarState[float]) -> float:
-        coupler, rocker = here.coupler_angle - self._start.coupler_angle, here.rocker_angle - self._start.rocker_angle
-        return float(self.train.ratio * crank_angle + blend(self.train, coupler, rocker))
+        train, coupler = self.train, here.coupler_angle - self._start.coupler_angle
+        rocker = here.rocker_angle - self._start.rocker_angle
+        return float(train.ratio * crank_angle + train.coupler_share * coupler + train.rocker_share * rocker)
 
     def rates(self, crank_angle: float, order: int) -> tuple[float, ...]:
         """Angle, and its derivatives by the crank angle up to an order."""
@@ -174,11 +175,8 @@ class GearedOutput(OutputRates):
             thesis (4-15), (4-16) for I = 1; own derivation otherwise
         """
         ahead = self.ahead
-        steps = back_steps(ahead.speed, ahead.angle, self.places)
-        if not steps:
-            return None
-        step = max(steps, key=lambda one: one.angle)
-        return step._replace(angle=-gain(ahead, step.start, step.start + step.crank_angle))
+        steps = [BackStep(a, b, b - a, -gain(ahead, a, b)) for a, b in backward(ahead.speed, self.places)]
+        return max(steps, key=lambda one: one.angle, default=None)
 
     @cached_property
     def dwell_angle(self) -> float | None:
@@ -219,11 +217,12 @@ class GearedOutput(OutputRates):
         at = min(range(len(extremes)), key=lambda i: extremes[i].value)
         least = extremes[at].place
         before, after = extremes[at - 1].place, extremes[(at + 1) % len(extremes)].place
+        # whole turns alone are taken off: searches over many linkages end where places stand still to the last bit
+        low, high = before - TURN * (before >= least), after + TURN * (after <= least)
         first = second = least
         if step is not None:
-            first = least - (least - step.start) % TURN
+            first = step.start - TURN * (step.start > least)
             second = first + step.crank_angle
-        low, high = least - (least - before) % TURN, least + (after - least) % TURN
         return Valley(self.ahead, first, second, least, low, high, abs(self.mean_ratio))
 
     def within(self, tolerance: float) -> ToleranceDwell:

@@ -196,6 +196,13 @@ def regained(course: Any, step: BackStep, *, backwards: bool = False) -> float:
     return bracketed_root(gained, step.crank_angle, TURN, ends=(min(-step.angle, 0.0), gained(TURN)))
 
 
+def backward(speed: Function, places: list[float]) -> list[tuple[float, float]]:
+    """The stretches between neighbouring standstills, of `standstills`, in which the speed ratio is negative [rad]."""
+    if len(places) < 2:
+        return []
+    return [(a, b) for a, b in pairwise([*places, places[0] + TURN]) if speed(0.5 * (a + b)) < 0.0]
+
+
 def back_steps(speed: Function, angle: Function, places: list[float]) -> list[BackStep]:
     """The stretches between neighbouring standstills in which the speed ratio is negative.
 
@@ -209,7 +216,4 @@ def back_steps(speed: Function, angle: Function, places: list[float]) -> list[Ba
         >>> [(round(s.crank_angle, 12), round(s.angle, 12)) for s in back_steps(speed, angle, [3.66, 5.76])]
         [(2.1, 1.369683001218)]
     """
-    if len(places) < 2:
-        return []
-    around = [*places, places[0] + TURN]
-    return [BackStep(a, b, b - a, angle(a) - angle(b)) for a, b in pairwise(around) if speed(0.5 * (a + b)) < 0.0]
+    return [BackStep(a, b, b - a, angle(a) - angle(b)) for a, b in backward(speed, places)]
