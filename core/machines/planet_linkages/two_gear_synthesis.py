@@ -297,35 +297,27 @@ class DwellSynthesis(TwoGearFourBar):
         band, longest = self.asked_tolerance, self.window_limit
         if band is None or longest is None or longest >= window:
             return
-        raise NoSolution(
-            (
-                f"{self._asked(band)} (limit <= {safely_below(math.degrees(longest))} deg with these gears and "
-                f"links{self._there()})"
-            ),
-            fix=f"set dwell.window to {safely_below(math.degrees(longest))} deg",
-        )
+        most = safely_below(math.degrees(longest))
+        raise NoSolution(f"{self._asked(band, most)})", fix=f"set dwell.window to {most} deg")
 
     def _refuse_narrow_band(self, least: float) -> None:
         band, limit = self.asked_tolerance, self.window_limit
         if band is None or limit is None or least <= band:
             return
-        longest = safely_below(math.degrees(limit))
+        most, wide = safely_below(math.degrees(limit)), safely_above(math.degrees(least))
         raise NoSolution(
-            (
-                f"{self._asked(band)} (limit <= {longest} deg with these gears and links{self._there()}, or "
-                f"+-{safely_above(math.degrees(least))} deg)"
-            ),
-            fix=f"set dwell.window to {longest} deg, or dwell.tolerance to {safely_above(math.degrees(least))} deg",
+            f"{self._asked(band, most)}, or +-{wide} deg)",
+            fix=f"set dwell.window to {most} deg, or dwell.tolerance to {wide} deg",
         )
 
-    def _asked(self, band: float) -> str:
-        return f"dwell within +-{short(math.degrees(band))} deg: {self._request.window:g} deg"
-
-    def _there(self) -> str:
-        """With what transmission angle the longest window is had."""
+    def _asked(self, band: float, most: str) -> str:
+        """The request, and the longest window, with the transmission angle at which it is had."""
         assert self._longest is not None
-        angle = self.family.drive(self._longest[0]).linkage.min_transmission_angle()
-        return f", transmission angle {math.degrees(angle):.3g} deg"
+        angle = math.degrees(self.family.drive(self._longest[0]).linkage.min_transmission_angle())
+        return (
+            f"dwell within +-{short(math.degrees(band))} deg: {self._request.window:g} deg (limit <= {most} deg with "
+            f"these gears and links, transmission angle {angle:.3g} deg"
+        )
 
     # What is reached
 

@@ -435,16 +435,23 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         """Distance of A from the line of P13 and P35 in each standstill [mm]; None without one."""
         if not self.dwell_crank_angles:
             return None
-        (r1, r3, _), (r3_out, r5, _) = self.rolling
         errors = []
         for phi in self.dwell_crank_angles:
             b = cmath.rect(self.crank_length, phi)
             c = self.frame_length + cmath.rect(self.rocker_length, solve(self.linkage, phi).rocker_angle)
-            first, second = b + r1 / (r1 + r3) * (c - b), c + r3_out / (r3_out + r5) * (self.frame_length - c)
+            first, second = self.rolling_points(b, c)
             way = second - first
             apart = abs((way.conjugate() * first).imag) / abs(way)
             errors.append(without_noise(apart, _ROUNDED * self.frame_length))
         return errors
+
+    def rolling_points(self, b: Any, c: Any) -> tuple[Any, Any]:
+        """P13 and P35, where the gears roll, of the joints B and C; complex, numbers or arrays [mm].
+
+        P13 = B + r1/(r1 + r3) (C - B),   P35 = C + r3/(r3 + r5) (D - C)
+        """
+        (r1, r3, _), (r3_out, r5, _) = self.rolling
+        return b + r1 / (r1 + r3) * (c - b), c + r3_out / (r3_out + r5) * (self.frame_length - c)
 
     @cached_property
     def rolling(self) -> list[tuple[float, float, float]]:

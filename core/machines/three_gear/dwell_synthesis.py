@@ -245,16 +245,11 @@ class DwellTask(FamilyTask):
         band, window = self.band, self.window
         if band is None or window is None:
             return
-        from gearlink.core.machines.three_gear.families import filling, window_of
-
         try:
-            filled = filling(family, train, band)
+            longest = _filled_window(family, train, band)
         except NoSolution:
             return  # every back-step of this family is wider
-        if filled is None:
-            return
-        longest = window_of(train)(filled)
-        if longest < window * (1.0 - _ROUNDING):
+        if longest is not None and longest < window * (1.0 - _ROUNDING):
             most = safely_below(math.degrees(longest))
             fix = f"set dwell.window to at most {most} deg"
             if self.spec.gears.idler is None:  # the smallest one: the limits are not looked at yet
@@ -262,25 +257,34 @@ class DwellTask(FamilyTask):
             raise NoSolution(f"{self._asked(band)} (limit <= {most} deg with these gears)", fix=fix)
 
     def _refuse_narrow_band(self, family: Family, train: GearTrain, found: FourBar) -> None:
-        from gearlink.core.machines.three_gear.families import back_step_of, filling, window_of
+        from gearlink.core.machines.three_gear.families import back_step_of
 
         band = self.band
         if band is None or (least := 0.5 * back_step_of(train)(found)) <= band:
             return
 
-        filled = filling(family, train, band)
-        assert filled is not None  # a back-step of twice the minimum is wider than the band
-        longest = window_of(train)(filled)
+        longest = _filled_window(family, train, band)
+        assert longest is not None  # a back-step of twice the minimum is wider than the band
+        most = safely_below(math.degrees(longest))
         raise NoSolution(
-            (
-                f"{self._asked(band)} (limit <= {safely_below(math.degrees(longest))} deg with these gears, or "
-                f"+-{safely_above(math.degrees(least))} deg)"
-            ),
-            fix=f"set dwell.window to at most {safely_below(math.degrees(longest))} deg",
+            f"{self._asked(band)} (limit <= {most} deg with these gears, or +-{safely_above(math.degrees(least))} deg)",
+            fix=f"set dwell.window to at most {most} deg",
         )
 
     def _asked(self, band: float) -> str:
         return f"dwell within +-{short(math.degrees(band))} deg: {self.request.window:g} deg"
+
+
+def _filled_window(family: Family, train: GearTrain, band: float) -> float | None:
+    """The window of the back-step that fills a band [rad], the longest one; None where none steps back so far.
+
+    Raises
+        NoSolution - for a family of which each back-step is wider
+    """
+    from gearlink.core.machines.three_gear.families import filling, window_of
+
+    filled = filling(family, train, band)
+    return None if filled is None else window_of(train)(filled)
 
 
 def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
@@ -421,10 +425,7 @@ class DwellSynthesis(ThreeGearFourBar):
                 return symmetric.longest_window(self.i3, band)
         if self._frames is not None and self._frames.least_step[1] > 2.0 * band:
             return self._frames.longest(band)[1]
-        from gearlink.core.machines.three_gear.families import filling, window_of
-
-        filled = filling(self.task.family(self.idler_teeth), self.train, band)
-        return None if filled is None else window_of(self.train)(filled)
+        return _filled_window(self.task.family(self.idler_teeth), self.train, band)
 
     @cached_property
     def frame_ratio_interval(self) -> list[float] | None:

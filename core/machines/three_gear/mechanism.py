@@ -1,9 +1,7 @@
 """The mechanism of a three-gear four-bar: crank, coupler, rocker, idler on C, output gear on D; its instant centres.
 
-P13 and P35 are where its gears roll, P15 is on the line of the shafts:
-
-P13 = B + r_1/(r_1 + r_3) (C - B),  P35 = C + r_3/(r_3 + r_5) (D - C), a ring's radius negative; the line through both
-meets AD in P15, and W = AP15/DP15. In a standstill A, F = P13 and E = P35 lie in line.
+P13 and P35 are where its gears roll, P15 is on the line of the shafts: the line through both meets AD in P15, and
+W = AP15/DP15. In a standstill A, F = P13 and E = P35 lie in line.
 """
 
 from __future__ import annotations
@@ -86,9 +84,7 @@ def poles(design: ThreeGearFourBar, phi: Reals) -> Poles:
     """
     links = design.moving.at(phi, 0).links
     b, c = links["coupler"].origin.value, links["rocker"].at("C").value
-    (r1, r3, _), (r3_out, r5, _) = design.rolling
-    first = b + r1 / (r1 + r3) * (c - b)
-    second = c + r3_out / (r3_out + r5) * (design.frame_length - c)
+    first, second = design.rolling_points(b, c)
     way = second - first
     with np.errstate(divide="ignore", invalid="ignore"):
         place = first.real - first.imag * way.real / way.imag

@@ -16,6 +16,7 @@ import numpy as np
 from gearlink.core.base.design import geometry, in_unit, placed
 from gearlink.core.base.design_axis import Evaluated, Findings, Single, as_arrays, put_in
 from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
@@ -24,12 +25,6 @@ from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.machines.three_gear import sweep
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.machines.three_gear.dwell import STANDSTILL_TOLERANCE, ByRoots
-from gearlink.core.machines.three_gear.dwell_synthesis import DwellSynthesis
-from gearlink.core.machines.three_gear.synthesis import (
-    BackStepSynthesis,
-    MomentaryDwellSynthesis,
-    VariableSpeedSynthesis,
-)
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS
@@ -676,12 +671,6 @@ class DriveSamples:
 
 _OF_IDLER = (Shift("coupler", ("B",), -1.0),)  # a longer coupler: the crank side stands back
 _OF_OUTPUT = (Shift("rocker", ("D",), -1.0),)
-_SYNTHESES = {
-    "synth dwell": DwellSynthesis,
-    "synth back-step": BackStepSynthesis,
-    "synth variable-speed": VariableSpeedSynthesis,
-    "synth momentary-dwell": MomentaryDwellSynthesis,
-}
 
 
 class ThreeGearRegister(RegisterDesign):
@@ -702,7 +691,7 @@ class ThreeGearRegister(RegisterDesign):
     def __init__(self, spec: Any) -> None:
         asked = spec.syntheses() if spec.links is None else ()
         if asked:  # done once; its links are what scatters
-            found = _SYNTHESES[asked[0]](spec).completion()
+            found = KINDS[self.kind].design_class(asked[0])(spec).completion()
             spec = changed(spec, [(one.path, one.value) for one in found])
         super().__init__(spec)
 
