@@ -27,7 +27,8 @@ from gearlink.core.parts.linkages.fourbar import sweep
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
-from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
+from gearlink.core.parts.linkages.geared_output import GearedOutput, Shares
+from gearlink.core.parts.linkages.standstills import OutputRates, Turning
 from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
@@ -189,30 +190,23 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
             return self.linkage.min_transmission_angle()
         return min(acute(self.state(angle).transmission_angle) for angle in inner_places(*self.crank_range))
 
-    def speed(self, crank_angle: float) -> float:
-        """Speed ratio of the rocker."""
-        return self.state(crank_angle, 1).rocker_velocity
-
-    def acceleration(self, crank_angle: float) -> float:
-        """Acceleration ratio of the rocker."""
-        return self.state(crank_angle, 2).rocker_acceleration
-
-    def jerk(self, crank_angle: float) -> float:
-        """Derivative of the acceleration ratio."""
-        return self.state(crank_angle, 3).rocker_jerk
+    @property
+    def turning(self) -> GearedOutput:
+        """The rocker as the output, of a crank that turns."""
+        return GearedOutput(self.linkage, Shares(0.0, 0.0, 1.0))
 
     @cached_property
     def speed_turnings(self) -> list[Turning]:
         """Extremes of the speed ratio over the turn, or over the range with its ends."""
         if self.crank_range is None:
-            return turnings(self.speed, self.acceleration)
+            return self.turning.speed_turnings
         return self._within("speed_ratio", "rocker_velocity", 1)
 
     @cached_property
     def acceleration_turnings(self) -> list[Turning]:
         """Extremes of the acceleration ratio, likewise."""
         if self.crank_range is None:
-            return turnings(self.acceleration, self.jerk)
+            return self.turning.acceleration_turnings
         return self._within("acceleration_ratio", "rocker_acceleration", 2)
 
     def _within(self, name: str, rate: str, order: int) -> list[Turning]:

@@ -84,7 +84,7 @@ def test_swing_ratio_and_sense_come_back(length: str, assembly: int, slow_stroke
     outer, inner = made.outer_dead_center, made.inner_dead_center
     way = (inner - outer) % (2.0 * math.pi)
     middle = outer + 0.5 * way if way > math.pi else inner + 0.5 * (2.0 * math.pi - way)
-    assert (made.speed(middle) > 0.0) is (slow_stroke == "same")
+    assert (made.turning.speed(middle) > 0.0) is (slow_stroke == "same")
 
 
 def test_published_designs() -> None:
