@@ -29,6 +29,16 @@ def also(*names: str) -> dict[str, Any]:
     return {"also": list(names)}
 
 
+def unit(name: str, **bounds: Any) -> Any:
+    """Annotates a number: its unit in files, and between which bounds it lies.
+
+    Parameters
+        name : str - "mm", "1" of a number without one
+        bounds : gt, ge, lt, le - as `Field` takes them
+    """
+    return Field(json_schema_extra={"unit": name}, **bounds)
+
+
 class Entries:
     """Annotates a list of fixed length: what each of its entries is, and a list to show for an example.
 
@@ -104,7 +114,7 @@ class DesignSpec(Spec):
         return ""
 
 
-Speed = Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})]
+Speed = Annotated[float, unit("1/min", ge=1e-6, le=1e6)]
 
 
 class Deferred:
@@ -145,16 +155,16 @@ class Deferred:
         return found
 
 
-Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
-SignedLength = Annotated[float, Field(json_schema_extra={"unit": "mm"})]
-Distance = Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})]
-Angle = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
-PressureAngle = Annotated[float, Field(gt=0, lt=45, json_schema_extra={"unit": "deg"})]
-AcuteAngle = Annotated[float, Field(ge=0, lt=90, json_schema_extra={"unit": "deg"})]
-Teeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
-Coefficient = Annotated[float, Field(gt=0, le=3, json_schema_extra={"unit": "1"})]
-Ratio = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})]
-Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
+Length = Annotated[float, unit("mm", gt=0)]
+SignedLength = Annotated[float, unit("mm")]
+Distance = Annotated[float, unit("mm", ge=0)]
+Angle = Annotated[float, unit("deg", ge=-360, le=360)]
+PressureAngle = Annotated[float, unit("deg", gt=0, lt=45)]
+AcuteAngle = Annotated[float, unit("deg", ge=0, lt=90)]
+Teeth = Annotated[int, unit("teeth", ge=1, le=10_000)]
+Coefficient = Annotated[float, unit("1", gt=0, le=3)]
+Ratio = Annotated[float, unit("1", gt=0)]
+Share = Annotated[float, unit("1", ge=0)]
 Assembly = Literal[1, -1]
 
 

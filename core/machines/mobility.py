@@ -14,7 +14,7 @@ from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Check, Remedy, Status, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.spec import DesignSpec, Length, Spec, Teeth
+from gearlink.core.base.spec import DesignSpec, Length, Spec, Teeth, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.linkages.codes import MOBILITY, TRAIN_FIT
 
@@ -52,9 +52,7 @@ class GearTrainMobilitySpec(DesignSpec):
         description="every link by name, the frame among them"
     )
     trains: Annotated[list[Train], Field(max_length=20)] = Field(default_factory=list, description="the gear trains")
-    mobility: Annotated[int, Field(ge=0, le=20, json_schema_extra={"unit": "1"})] = Field(
-        1, description="required degrees of freedom"
-    )
+    mobility: Annotated[int, unit("1", ge=0, le=20)] = Field(1, description="required degrees of freedom")
 
 
 MOST_FIXED_ENDS = 2

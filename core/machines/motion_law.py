@@ -13,7 +13,7 @@ from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.errors import in_section
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.spec import DesignSpec, Length, Speed
+from gearlink.core.base.spec import DesignSpec, Length, Speed, unit
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws
 from gearlink.core.parts.cams.spec import MotionLaw
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.shaped import Phase, Shaping
 
 
-Millis = Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "ms"})]
-PhaseAngle = Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})]
-Hertz = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})]
-Damping = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
+Millis = Annotated[float, unit("ms", gt=0, le=1e9)]
+PhaseAngle = Annotated[float, unit("deg", gt=0, le=360)]
+Hertz = Annotated[float, unit("Hz", gt=0, le=1e7)]
+Damping = Annotated[float, unit("1", ge=0, lt=1)]
 
 
 class MotionLawSpec(DesignSpec):

@@ -23,12 +23,13 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     Teeth,
+    unit,
 )
 from gearlink.core.parts.cams.output_motion import OutputLaw
 from gearlink.core.parts.gears.keys.pair import PairKeys
 
-SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
-Number = Annotated[float, Field(json_schema_extra={"unit": "1"})]
+SteepAngle = Annotated[float, unit("deg", gt=0, lt=90)]
+Number = Annotated[float, unit("1")]
 Harmonic = Annotated[
     list[Number], Field(min_length=3, max_length=3), Entries("[n, cos, sin]", "[1, 20, 0]", ("1", "mm", "mm"))
 ]

@@ -18,6 +18,7 @@ from gearlink.core.base.spec import (
     LoadLimits,
     SignedLength,
     Spec,
+    unit,
 )
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
 from gearlink.core.parts.linkages.spec_sections import FourLinks, Plain, require_function
@@ -34,12 +35,10 @@ class RockerLimits(LoadLimits):
 class Swing(Spec):
     """Swing and time ratio of the rocker, and one or two lengths."""
 
-    angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] = Field(
+    angle: Annotated[float, unit("deg", gt=0, lt=180)] = Field(
         description="swing of the rocker between its dead centres"
     )
-    quick_return_ratio: Annotated[float, Field(ge=1, json_schema_extra={"unit": "1"})] = Field(
-        description="time of the slow over the fast stroke"
-    )
+    quick_return_ratio: Annotated[float, unit("1", ge=1)] = Field(description="time of the slow over the fast stroke")
     slow_stroke: Literal["same", "opposite"] = Field(
         "same", description="sense of the rocker in the slow stroke: the crank's (same) or against it (opposite)"
     )
@@ -85,10 +84,10 @@ class Function(Spec):
     x: Annotated[list[Plain], Field(min_length=2, max_length=2), Entries("[start, end]", "[1, 2]")] | None = Field(
         None, description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
     )
-    input_swing: Annotated[float, Field(gt=0, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
+    input_swing: Annotated[float, unit("deg", gt=0, le=180)] | None = Field(
         None, description="turn of the crank from the first x to the last"
     )
-    output_swing: Annotated[float, Field(ge=-180, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
+    output_swing: Annotated[float, unit("deg", ge=-180, le=180)] | None = Field(
         None, description="turn of the rocker from the first y to the last, negative clockwise"
     )
     input_start: Angle | None = Field(

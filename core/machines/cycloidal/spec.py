@@ -8,11 +8,11 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.report import safely_below
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, SignedLength, Spec
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, SignedLength, Spec, unit
 
-Count = Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})]
-Friction = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
-Stress = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
+Count = Annotated[int, unit("1", ge=3, le=1000)]
+Friction = Annotated[float, unit("1", ge=0, lt=1)]
+Stress = Annotated[float, unit("N/mm^2", gt=0, le=1e7)]
 
 
 class OutputPins(Spec):
@@ -42,9 +42,7 @@ class ReducerMaterial(Spec):
     """Disc and pins, of one material."""
 
     elastic_modulus: Stress = Field(206_000.0, description="modulus of elasticity")
-    poisson: Annotated[float, Field(ge=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
-        0.3, description="Poisson's ratio"
-    )
+    poisson: Annotated[float, unit("1", ge=0, lt=0.5)] = Field(0.3, description="Poisson's ratio")
     contact_limit: Stress | None = Field(None, description="maximum contact stress that it bears")
 
 
@@ -59,23 +57,19 @@ class CycloidalReducerSpec(DrivenSpec):
 
     own_commands = ("analyze",)
     kind: Literal["cycloidal-reducer"]
-    pins: Annotated[int, Field(ge=4, le=1000, json_schema_extra={"unit": "1"})] = Field(
-        description="pins of the ring; the disc has one lobe less"
-    )
+    pins: Annotated[int, unit("1", ge=4, le=1000)] = Field(description="pins of the ring; the disc has one lobe less")
     pin_circle_radius: Length = Field(description="radius of the circle of the centres of the ring pins")
     pin_radius: Length = Field(description="radius of a ring pin")
     eccentricity: Length = Field(description="eccentricity of the discs")
-    discs: Annotated[int, Field(ge=1, le=3, json_schema_extra={"unit": "1"})] = Field(
+    discs: Annotated[int, unit("1", ge=1, le=3)] = Field(
         1, description="discs, evenly spaced about the eccentric shaft"
     )
     fixed: Literal["ring", "output"] = Field(
         "ring", description="ring: the output pins drive the output; output: they are held, and the ring turns"
     )
     width: Length | None = Field(None, description="width of a disc: with torque the contact stress is given")
-    torque: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N m"})] | None = Field(
-        None, description="torque of the output"
-    )
-    uneven: Annotated[float, Field(ge=1, le=10, json_schema_extra={"unit": "1"})] = Field(
+    torque: Annotated[float, unit("N m", gt=0, le=1e12)] | None = Field(None, description="torque of the output")
+    uneven: Annotated[float, unit("1", ge=1, le=10)] = Field(
         1.0, description="torque of the disc that carries most over the mean of all"
     )
     output_pins: OutputPins | None = None

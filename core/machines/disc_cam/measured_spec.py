@@ -20,6 +20,7 @@ from gearlink.core.base.spec import (
     Spec,
     Speed,
     TolerancedSpec,
+    unit,
 )
 from gearlink.core.machines.disc_cam.spec import (
     CamBody,
@@ -102,7 +103,7 @@ class MeasuredCamSpec(TolerancedSpec):
     roller_radius: Length = Field(description="radius of the roller")
     sense: Assembly = Field(1, description="1: the cam turns counter-clockwise; -1: clockwise")
     profile: Profile
-    harmonics: Annotated[int, Field(ge=1, le=MOST_HARMONICS, json_schema_extra={"unit": "1"})] | None = Field(
+    harmonics: Annotated[int, unit("1", ge=1, le=MOST_HARMONICS)] | None = Field(
         None, description="of the Fourier series through the points; default: a quarter of the points, at most 60"
     )
     dwell_tolerance: Distance = Field(0.02, description="range of the follower within a dwell: mm, oscillating deg")

@@ -20,13 +20,14 @@ from gearlink.core.base.spec import (
     Spec,
     TolerancedSpec,
     also,
+    unit,
 )
 from gearlink.core.parts.cams.contour_spec import CamProfile
 from gearlink.core.parts.cams.motion_spec import FollowerMotion, OfFollowerKeys, SteepAngle, require_closed
 
 Strokes = Annotated[list[SteepAngle], Field(min_length=2, max_length=2), Entries("[rise, return]")]
-Kilograms = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
-Inertia = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})]
+Kilograms = Annotated[float, unit("kg", gt=0)]
+Inertia = Annotated[float, unit("kg m^2", gt=0)]
 Reach = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[from, to]")]
 ROLLER_SHARE = 0.8
 """Of the minimum curvature radius of the pitch curve: the usual maximum roller."""
@@ -160,13 +161,13 @@ class ReturnRoller(Spec):
 class Spring(Spec):
     """The spring that holds the follower on the cam."""
 
-    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"}), OfFollower("N m")] | None = Field(
+    preload: Annotated[float, unit("N", ge=0), OfFollower("N m")] | None = Field(
         None, description="force at lift 0 (oscillating: N m)"
     )
-    rate: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N/mm"}), OfFollower("N m/rad")] = Field(
+    rate: Annotated[float, unit("N/mm", ge=0), OfFollower("N m/rad")] = Field(
         0.0, description="rate (oscillating: N m/rad)"
     )
-    least_force: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"}), OfFollower("N m")] | None = Field(
+    least_force: Annotated[float, unit("N", ge=0), OfFollower("N m")] | None = Field(
         None, description="minimum force that is to stay (oscillating: N m), instead of preload"
     )
 
@@ -187,11 +188,9 @@ class Errors(Spec):
         description="total indicator reading of the cam on its shaft",
         json_schema_extra={"unit": "mm", **also("runout")},
     )
-    key: Annotated[float, Field(ge=0, json_schema_extra={"unit": "deg"})] = Field(
-        0.0, description="angular error of the cam on its shaft"
-    )
+    key: Annotated[float, unit("deg", ge=0)] = Field(0.0, description="angular error of the cam on its shaft")
     roller_radius: Distance = Field(0.0, description="error of the roller's radius")
-    waves: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "1"})] | None = Field(
+    waves: Annotated[int, unit("1", ge=1, le=10_000)] | None = Field(
         None, description="waves of the profile a revolution"
     )
 
@@ -199,7 +198,7 @@ class Errors(Spec):
 class Servo(Spec):
     """The table of a drive that makes the motion instead of a cam."""
 
-    rows: Annotated[int, Field(ge=2, le=100_000, json_schema_extra={"unit": "rows"})] | None = Field(
+    rows: Annotated[int, unit("rows", ge=2, le=100_000)] | None = Field(
         None, description="rows of the table, both ends"
     )
     tolerance: Length | None = Field(None, description="maximum position error between rows, instead of rows")

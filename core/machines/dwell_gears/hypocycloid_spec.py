@@ -7,11 +7,11 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 
-CarrierAngle = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+CarrierAngle = Annotated[float, unit("deg", gt=0, lt=360)]
 
 
 class HypocycloidGears(TrainKeys):
@@ -76,7 +76,7 @@ class CarrierShaft(Spec):
 class DrivingPoint(Spec):
     """The point of the planet that moves the output."""
 
-    ratio: Annotated[float, Field(json_schema_extra={"unit": "1"})] = Field(
+    ratio: Annotated[float, unit("1")] = Field(
         1.0, description="its distance from the planet's axis over the pitch radius"
     )
 

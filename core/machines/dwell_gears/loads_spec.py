@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gearlink.core.base.spec import Spec
+from gearlink.core.base.spec import Spec, unit
 from gearlink.core.studies.loads.spec import Body, Loads
 
 
@@ -28,7 +28,7 @@ class HypocycloidLoads(Loads):
     )
 
 
-Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+Direction = Annotated[float, unit("deg", ge=-360, le=360)]
 
 
 class MutilatedMasses(Spec):

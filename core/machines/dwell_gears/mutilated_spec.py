@@ -7,13 +7,13 @@ from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 from gearlink.core.parts.linkages.spec_sections import FourLinks, PivotShafts
 
-Turns: TypeAlias = Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})]
-Millis: TypeAlias = Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "ms"})]
+Turns: TypeAlias = Annotated[float, unit("1", gt=0, le=1e6)]
+Millis: TypeAlias = Annotated[float, unit("ms", gt=0, le=1e9)]
 
 
 class MutilatedGears(TrainKeys):
@@ -53,7 +53,7 @@ class WantedTimes(Spec):
     dwell_time: Millis | None = Field(None, description="instead of dwell_turns, at input_speed")
     driven_turn: Turns = Field(1.0, description="turns of the driven gear in a motion, a fraction of whole teeth")
     most_teeth: Teeth = Field(200, description="maximum number of teeth on the whole pitch circle of the wheel")
-    tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
+    tolerance: Annotated[float, unit("1", gt=0, lt=1)] = Field(
         0.01, description="maximum miss of either, as a share of it"
     )
 
@@ -74,7 +74,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     """Reduction, mutilated wheel, driven gear and, on its shaft, the crank of a four-bar."""
 
     kind: Literal["mutilated-gear-dwell"]
-    reduction: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
+    reduction: Annotated[float, unit("1", gt=0, le=1e6)] | None = Field(
         None, description="input revolutions per revolution of the mutilated wheel; required times give it"
     )
     target: WantedTimes | None = Field(None, description="required motion and dwell")

@@ -18,6 +18,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     Teeth,
+    unit,
 )
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits, TurnAngle, require_rim
@@ -102,13 +103,13 @@ class WantedFunction(Spec):
     x: Annotated[list[Plain], Field(min_length=2, max_length=2), Entries("[start, end]")] = Field(
         description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
     )
-    input_swing: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+    input_swing: Annotated[float, unit("deg", gt=0, le=360)] = Field(
         description="turn of the input from the first x to the last"
     )
-    output_swing: Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})] = Field(
+    output_swing: Annotated[float, unit("deg", ge=-360, le=360)] = Field(
         description="turn of the output from the first y to the last, negative clockwise"
     )
-    tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
+    tolerance: Annotated[float, unit("deg", gt=0)] | None = Field(
         None, description="maximum structural error that is accepted"
     )
     links: Literal["sought", "given"] = Field(
@@ -162,11 +163,11 @@ class FiveBarTarget(Spec):
     keep: list[Literal["links.input", "links.follower", "links.output", "phase"]] = Field(
         [], description="of poses: keys of the file that stay as they are"
     )
-    angle_tolerance: Annotated[float, Field(gt=0, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
+    angle_tolerance: Annotated[float, unit("deg", gt=0, le=180)] | None = Field(
         None, description="of poses: maximum angle by which the body may miss one"
     )
     tolerance: Length | None = Field(None, description="path: maximum distance of a point that is accepted")
-    budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(
+    budget: Annotated[float, unit("s", gt=0, le=3600)] | None = Field(
         None, description="time that the search of a function or of timed points may take; default: a fixed effort"
     )
 

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gearlink.core.base.spec import Length, Spec
+from gearlink.core.base.spec import Length, Spec, unit
 from gearlink.core.studies.loads.spec import Body, CommonLoads, Material, Roller
 
-Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+Direction = Annotated[float, unit("deg", ge=-360, le=360)]
 
 
 class PressMasses(Spec):

@@ -27,12 +27,13 @@ from gearlink.core.base.spec import (
     also,
     require_offset_below_rod,
     require_stroke_or_crank,
+    unit,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
 from gearlink.core.parts.gears.keys.pair import PairKeys
 
-TurnAngle = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
-PartOfTurn = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+TurnAngle = Annotated[float, unit("deg", ge=0, lt=360)]
+PartOfTurn = Annotated[float, unit("deg", gt=0, lt=360)]
 
 
 class InputGears(PairKeys):
@@ -165,7 +166,7 @@ class PressCam(Spec):
 class PressSize(Spec):
     """Choice of a base radius that is not given: the smallest cams that keep a pressure angle, roller and shaft."""
 
-    pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+    pressure_angle: Annotated[float, unit("deg", gt=0, lt=90)] = Field(
         description="pressure angle that neither cam exceeds"
     )
 
@@ -181,7 +182,7 @@ class FlatbedPressSpec(TolerancedSpec):
     """Cylinder drive, bed drive, synchronous zone and compensation cams."""
 
     kind: Literal["flatbed-press"]
-    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "sheets/h"})] = Field(description="sheets per hour")
+    speed: Annotated[float, unit("sheets/h", gt=0)] = Field(description="sheets per hour")
     input_gears: InputGears | None = None
     cylinder: Cylinder
     bed: Bed

@@ -16,6 +16,7 @@ from gearlink.core.base.spec import (
     LoadLimits,
     TolerancedSpec,
     also,
+    unit,
 )
 from gearlink.core.parts.gears.keys.pair import PairKeys
 from gearlink.core.parts.gears.keys.types import Shift, SignedTeeth, TwoShifts
@@ -53,7 +54,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
         "or rack in exports, default 2 modules",
     )
-    rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
+    rack_teeth: Annotated[int, unit("teeth", ge=1, le=10_000)] | None = Field(
         None, description="teeth of the rack in figures and exports; default: as many as gear 1 has"
     )
     cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(

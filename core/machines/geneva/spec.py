@@ -8,12 +8,12 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.report import safely_below
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec, unit
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance
 
-Clearance = Annotated[float, Field(ge=0, le=1e3, json_schema_extra={"unit": "mm"})]
-Pins = Annotated[int, Field(ge=1, le=6, json_schema_extra={"unit": "1"})]
+Clearance = Annotated[float, unit("mm", ge=0, le=1e3)]
+Pins = Annotated[int, unit("1", ge=1, le=6)]
 
 
 class _WithoutKind(Deferred):
@@ -33,12 +33,10 @@ class _WithoutKind(Deferred):
 class Wheel(Spec):
     """What the wheel drives."""
 
-    inertia: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})] = Field(
+    inertia: Annotated[float, unit("kg m^2", ge=0, le=1e12)] = Field(
         0.0, description="moment of inertia of all that turns with the wheel"
     )
-    resistance: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "N m"})] = Field(
-        0.0, description="torque against its motion"
-    )
+    resistance: Annotated[float, unit("N m", ge=0, le=1e12)] = Field(0.0, description="torque against its motion")
 
 
 class GenevaLimits(LoadLimits):
@@ -55,7 +53,7 @@ class GenevaDriveSpec(DrivenSpec):
     type: Literal["external", "internal"] = Field(
         description="external: the crank's axis is outside the wheel; internal: within it"
     )
-    slots: Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})] = Field(
+    slots: Annotated[int, unit("1", ge=3, le=1000)] = Field(
         description="slots of the wheel, which turns by 360/slots in a step"
     )
     center_distance: Length = Field(description="distance of both axes")

@@ -11,7 +11,18 @@ from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema, mo
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
-from gearlink.core.base.spec import Deferred, DesignSpec, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
+from gearlink.core.base.spec import (
+    Deferred,
+    DesignSpec,
+    Entries,
+    Length,
+    Ratio,
+    Share,
+    Spec,
+    Speed,
+    TolerancedSpec,
+    unit,
+)
 from gearlink.core.base.spec_paths import put
 from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import amount
@@ -24,10 +35,10 @@ if TYPE_CHECKING:
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 AboveZero = Annotated[float, Field(gt=0, le=1e12)]
-Inertia = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
-Stiffness = Annotated[float, Field(gt=0, le=1e15, json_schema_extra={"unit": "N m/rad"})]
-Turns = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
-MachineAngle = Annotated[float, Field(ge=-36_000, le=36_000, json_schema_extra={"unit": "deg"})]
+Inertia = Annotated[float, unit("kg m^2", gt=0, le=1e12)]
+Stiffness = Annotated[float, unit("N m/rad", gt=0, le=1e15)]
+Turns = Annotated[float, unit("1", ge=-1e6, le=1e6)]
+MachineAngle = Annotated[float, unit("deg", ge=-36_000, le=36_000)]
 
 
 def _refuse(code: str, key: str, message: str) -> PydanticCustomError:
@@ -89,7 +100,7 @@ class Member(Spec):
     design: Annotated[Any, BeforeValidator(_made), WithJsonSchema({"type": "object"})] | None = Field(
         None, description="the design itself, instead of of"
     )
-    phase: Annotated[float, Field(json_schema_extra={"unit": "deg"})] | Literal["free"] = Field(
+    phase: Annotated[float, unit("deg")] | Literal["free"] = Field(
         0.0, description="machine angle at which its input angle is 0, in the driver's unit where it has one; or free"
     )
     ratio: Turns = Field(
@@ -154,9 +165,7 @@ class Event(Spec):
     """A moment at which a member passes a value."""
 
     of: str = Field(description="a member, or one of its outputs as MEMBER.OUTPUT")
-    output: Annotated[float, Field(json_schema_extra={"unit": "1"})] = Field(
-        description="the value that its output passes, mm or deg"
-    )
+    output: Annotated[float, unit("1")] = Field(description="the value that its output passes, mm or deg")
     on: str | None = Field(None, description="the run in which it does: rise, return, rise[2]; default: the first")
 
 
@@ -179,7 +188,7 @@ class MainShaft(Spec):
         None, description="turns of each disc per revolution of the main shaft; default 1"
     )
     fixed: bool = Field(False, description="the first disc does not swing")
-    damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+    damping: Annotated[float, unit("1", ge=0, lt=1)] | None = Field(
         None, description="damping ratio of every mode; default: 0.03, assumed"
     )
 
@@ -240,10 +249,10 @@ class MachineServo(Spec):
     """The table of a drive that makes the motion of a member over the machine angle."""
 
     member: str = Field(description="the member whose output the drive makes")
-    rows: Annotated[int, Field(ge=2, le=100_000, json_schema_extra={"unit": "rows"})] | None = Field(
+    rows: Annotated[int, unit("rows", ge=2, le=100_000)] | None = Field(
         None, description="rows of the table, both ends"
     )
-    tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
+    tolerance: Annotated[float, unit("1", gt=0)] | None = Field(
         None, description="maximum position error between rows, mm or deg, instead of rows"
     )
 
@@ -259,7 +268,7 @@ class MachineRegister(Spec):
     """The register between members at the print."""
 
     at: MachineAngle = Field(0.0, description="machine angle of the print")
-    chain: Annotated[dict[str, Annotated[float, Field(json_schema_extra={"unit": "1"})]], Field(min_length=1)] = Field(
+    chain: Annotated[dict[str, Annotated[float, unit("1")]], Field(min_length=1)] = Field(
         description="what an error of each member costs at the print: its share, with its sign"
     )
     tolerance: Length | None = Field(None, description="maximum error that is allowed, to either side")

@@ -19,6 +19,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     TolerancedSpec,
+    unit,
 )
 from gearlink.core.parts.cams.motion_spec import FollowerMotion, SteepAngle, require_closed
 
@@ -35,9 +36,9 @@ def _is_name(name: str) -> str:
 
 Name = Annotated[str, AfterValidator(_is_name)]
 Vector = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[100, 0]")]
-Direction = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"})]
-Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"})]
-Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+Direction = Annotated[float, unit("deg", ge=-1e6, le=1e6)]
+Place = Annotated[float, unit("deg", ge=-1e6, le=1e6)]
+Number = Annotated[float, unit("1", ge=-1e6, le=1e6)]
 TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 Bar = Annotated[
     list[Name | Length],
@@ -197,7 +198,7 @@ class PlanarLimits(LoadLimits):
     pressure_angle: SteepAngle | None = Field(
         None, description="maximum pressure angle of cams; 30 for followers that slide, 45 for those that turn"
     )
-    least_shaft: Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})] | None = Field(
+    least_shaft: Annotated[float, unit("mm", ge=0)] | None = Field(
         None, description="minimum radius for a shaft where none is given; default: one module"
     )
 
@@ -231,7 +232,7 @@ class PlanarSpec(TolerancedSpec):
         description="links, slides, slots and points that are looked at; of a link that slides on the frame its slide; "
         "default: all other links, then slides",
     )
-    input_speed: Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
+    input_speed: Annotated[float, unit("1/min", ge=1e-6, le=1e6)] | None = Field(
         None, description="speed of the input, of a slide in mm/s: with it real speeds and times are given"
     )
     limits: PlanarLimits = PlanarLimits.model_construct()

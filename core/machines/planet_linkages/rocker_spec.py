@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 
@@ -35,9 +35,7 @@ class RockerLinks(Spec):
 class SwingTarget(Spec):
     """The crank is found for it."""
 
-    swing: Annotated[float, Field(gt=0, lt=3600, json_schema_extra={"unit": "deg"})] = Field(
-        description="swing of the output gear"
-    )
+    swing: Annotated[float, unit("deg", gt=0, lt=3600)] = Field(description="swing of the output gear")
 
 
 class GearedRockerSpec(DrivenSpec):

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
@@ -73,9 +73,7 @@ class StandingDwell(DwellBand):
 class BackStepAngle(Spec):
     """Specification for `synth back-step`; the frame is sought."""
 
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] = Field(
-        description="back-step of the output"
-    )
+    angle: Annotated[float, unit("deg", gt=0, lt=360)] = Field(description="back-step of the output")
 
 
 class MotionTarget(Spec):
@@ -97,7 +95,7 @@ class TwoGearFourBarSpec(DrivenSpec):
     dwell_tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
         None, description="output tolerance +- within which a dwell is measured"
     )
-    dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    dwell_window: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
         None, description="crank angle over which the output must stay within that tolerance"
     )
     feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(

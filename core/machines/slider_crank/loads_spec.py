@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gearlink.core.base.spec import Spec
+from gearlink.core.base.spec import Spec, unit
 from gearlink.core.studies.loads.spec import Body, Loads
 
 
@@ -23,7 +23,7 @@ class SliderCrankMasses(Spec):
 class SliderCrankBalance(Spec):
     """A counterweight on the crank."""
 
-    reciprocating_share: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] | Literal["best"] = Field(
+    reciprocating_share: Annotated[float, unit("1", ge=0, le=1)] | Literal["best"] = Field(
         0.5, description="share of the reciprocating mass that it balances; best: smallest maximum shaking force"
     )
 

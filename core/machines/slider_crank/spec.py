@@ -19,6 +19,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     require_offset_below_rod,
     require_stroke_or_crank,
+    unit,
 )
 from gearlink.core.parts.linkages.slider_crank import SliderCrank, quick_return
 
@@ -44,7 +45,7 @@ class SliderCrankSpec(DrivenSpec):
     crank: Length | None = Field(
         None, description="crank, instead of stroke; in addition to it with quick_return_ratio"
     )
-    quick_return_ratio: Annotated[float, Field(ge=1, json_schema_extra={"unit": "1"})] | None = Field(
+    quick_return_ratio: Annotated[float, unit("1", ge=1)] | None = Field(
         None, description="slow over fast stroke in time: the offset is found for it, and the rod if it is not given"
     )
     rod: Annotated[Length | None, AfterValidator(_given_or_found)] = Field(

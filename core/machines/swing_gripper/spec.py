@@ -20,11 +20,12 @@ from gearlink.core.base.spec import (
     Spec,
     TolerancedSpec,
     also,
+    unit,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
 
-InertiaMoment = Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})]
-Phase = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+InertiaMoment = Annotated[float, unit("kg m^2", ge=0)]
+Phase = Annotated[float, unit("deg", gt=0, lt=360)]
 Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]")]
 
 
@@ -67,14 +68,14 @@ class Phases(Spec):
     accelerate: Phase | None = Field(None, description="from the pick-up to the constant speed")
     constant: Phase | None = Field(None, description="at the speed of the cylinder; the handover lies in it")
     decelerate: Phase | None = Field(None, description="to the far dwell")
-    far_dwell: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    far_dwell: Annotated[float, unit("deg", ge=0, lt=360)] | None = Field(
         None, description="rest at the far end; 0: the arm turns back at once"
     )
     return_: Phase | None = Field(None, alias="return", description="back to the pick-up position")
     near_dwell: Phase | None = Field(
         None, description="rest at the pick-up position; one phase without a value takes the remaining angle"
     )
-    balance: Annotated[float, Field(ge=0.01, le=100, json_schema_extra={"unit": "1"})] | None = Field(
+    balance: Annotated[float, unit("1", ge=0.01, le=100)] | None = Field(
         None,
         description="sizes accelerate, decelerate and return: peak acceleration of the return over theirs, which are "
         "equal",
@@ -177,7 +178,7 @@ class GripperCam(Spec):
 class Size(Spec):
     """Choice of a cam centre that is not given: the smallest cam for a pressure angle."""
 
-    pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+    pressure_angle: Annotated[float, unit("deg", gt=0, lt=90)] = Field(
         description="pressure angle that no roller exceeds"
     )
     side: Assembly | None = Field(
@@ -188,7 +189,7 @@ class Size(Spec):
 class Release(Spec):
     """The cylinder angles over which one gripper opens and the other closes on the sheet."""
 
-    window: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+    window: Annotated[float, unit("deg", gt=0, lt=90)] = Field(
         description="cylinder angle before and after the handover"
     )
     gap: Length = Field(0.03, description="allowed distance of the gripper tip from the pitch circle")
@@ -200,7 +201,7 @@ class Inertia(Spec):
     input: InertiaMoment = Field(0.0, description="cam rocker about A")
     output: InertiaMoment = Field(0.0, description="gripper about E")
     coupler: InertiaMoment = Field(0.0, description="coupler about its centre of mass")
-    coupler_mass: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg"})] = Field(
+    coupler_mass: Annotated[float, unit("kg", ge=0)] = Field(
         0.0, description="mass of the coupler, its centre at mid-length"
     )
     return_rocker: InertiaMoment = Field(0.0, description="return rocker about A")
@@ -209,25 +210,19 @@ class Inertia(Spec):
 class ClosingSpring(Spec):
     """The spring that pulls the two rockers together: its torque, or the levers and the pull that make it."""
 
-    torque: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m"})] | None = Field(
+    torque: Annotated[float, unit("N m", gt=0)] | None = Field(
         None, description="torque on each rocker; or else: arms, angle, preload"
     )
     arms: Annotated[list[Length], Field(min_length=2, max_length=2), Entries("[cam rocker, return rocker]")] | None = (
         Field(None, description="A to the spring's ends on cam rocker and return rocker")
     )
-    angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="angle between these two arms"
-    )
-    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+    angle: Annotated[float, unit("deg", gt=0, lt=180)] | None = Field(None, description="angle between these two arms")
+    preload: Annotated[float, unit("N", ge=0)] | None = Field(
         None, description="pull of the spring; at `length` where a rate is given"
     )
-    rate: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
-        None, description="rate of the spring"
-    )
+    rate: Annotated[float, unit("N/mm", gt=0)] | None = Field(None, description="rate of the spring")
     length: Length | None = Field(None, description="length at which the spring pulls with `preload`")
-    reserve: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N m"})] = Field(
-        0.0, description="minimum torque that must remain"
-    )
+    reserve: Annotated[float, unit("N m", ge=0)] = Field(0.0, description="minimum torque that must remain")
 
     @model_validator(mode="after")
     def _torque_or_levers(self) -> ClosingSpring:
@@ -249,10 +244,10 @@ class ArmStop(Spec):
 
     radius: Length = Field(description="E to the stop")
     clearance: Length = Field(description="gap between main roller and cam while the arm rests on the stop")
-    restitution: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
+    restitution: Annotated[float, unit("1", gt=0, lt=1)] = Field(
         0.5, description="speed after an impact on the stop over that before it"
     )
-    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+    stiffness: Annotated[float, unit("N/mm", gt=0)] | None = Field(
         None, description="stiffness of the stop: gives the maximum force of the impact"
     )
 
@@ -268,9 +263,7 @@ class FingersOpen(Spec):
 class FingersClose(Spec):
     """Where the fingers close again."""
 
-    to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
-        description="cylinder angle at which they are closed"
-    )
+    to: Annotated[float, unit("deg", gt=0, le=360)] = Field(description="cylinder angle at which they are closed")
     over: Phase = Field(description="cylinder angle that they take")
     law: MotionLaw = Field("cycloidal", description="rest-to-rest law")
 
@@ -283,9 +276,7 @@ class FingerSection(Spec):
     angle: Angle = Field(description="from the arm to the roller lever, fingers closed")
     roller_radius: Length = Field(description="radius of the roller")
     length: Length = Field(description="length of the fingers")
-    open_angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] = Field(
-        description="angle by which lever and fingers turn"
-    )
+    open_angle: Annotated[float, unit("deg", gt=0, lt=180)] = Field(description="angle by which lever and fingers turn")
     open: FingersOpen
     close: FingersClose
 
@@ -304,7 +295,7 @@ class GripperLimits(LoadLimits):
     transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle, at D and at C")
     pressure_angle: AcuteAngle = Field(45.0, description="maximum pressure angle of the cams")
     accelerate_pressure_angle: AcuteAngle = Field(30.0, description="the same in the phase accelerate; only warns")
-    condition_number: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
+    condition_number: Annotated[float, unit("1", gt=1)] = Field(
         100.0, description="maximum condition number of the loop, 1/sin(mu); only warns"
     )
     handover_place: Length = Field(
@@ -315,10 +306,10 @@ class GripperLimits(LoadLimits):
     least_shaft: Length | None = Field(
         None, description="minimum radius of a shaft that would be built; default: that of the roller"
     )
-    return_acceleration: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
+    return_acceleration: Annotated[float, unit("1", gt=0)] | None = Field(
         None, description="peak acceleration of the return over that of the phase accelerate; none: no limit"
     )
-    jerk_step: Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})] | None = Field(
+    jerk_step: Annotated[float, unit("1", ge=0)] | None = Field(
         None, description="jump of the swing's third derivative by the cylinder angle; only warns; none: no limit"
     )
 
@@ -327,7 +318,7 @@ class SwingGripperSpec(TolerancedSpec):
     """Six-phase swing gripper with cam rocker, four-bar and cam pair."""
 
     kind: Literal["swing-gripper"]
-    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "sheets/h"})] = Field(description="sheets per hour")
+    speed: Annotated[float, unit("sheets/h", gt=0)] = Field(description="sheets per hour")
     cylinder: Cylinder
     arm: Arm
     links: Links

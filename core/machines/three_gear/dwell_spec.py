@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, Spec
+from gearlink.core.base.spec import Length, Spec, unit
 from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 
 
@@ -32,7 +32,7 @@ class Placing(Spec):
 class Dwell(DwellBand, Placing):
     """Specification for `synth dwell`: crank angle until the output is back (angle) or within a tolerance (window)."""
 
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    angle: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
         None,
         description="crank angle phi13 from the start of the back-step until the output is back at its starting "
         "position",

@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.real_speed import other_speed
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
 
@@ -35,9 +35,7 @@ class Gears(TrainKeys):
     crank: SignedTeeth = Field(description="teeth of the gear fixed to the crank; negative: a ring round the idler")
     idler: Teeth | None = Field(None, description="teeth of the idler; default: chosen by the synthesis")
     output: SignedTeeth = Field(description="teeth of the output gear on the rocker's axis; negative: a ring gear")
-    i3: Annotated[float, Field(lt=0, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="-idler/output, instead of idler"
-    )
+    i3: Annotated[float, unit("1", lt=0)] | None = Field(None, description="-idler/output, instead of idler")
     rim: Length | None = Field(
         None, description="outer radius of the output ring; default: 2 modules outside its root circle"
     )
@@ -73,7 +71,7 @@ class Gears(TrainKeys):
         return self
 
 
-UniformTolerance = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+UniformTolerance = Annotated[float, unit("1", gt=0, lt=1)]
 
 
 class Links(Spec):
@@ -105,7 +103,7 @@ class ThreeGearSpec(DrivenSpec):
         None, description="for `synth momentary-dwell`: exactly one of eccentricity, frame, gap, balanced"
     )
     dwell_tolerance: DwellTolerance | None = Field(None, description="output tolerance +- for the tolerance dwell")
-    dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    dwell_window: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
         None, description="crank angle over which the output must stay within that tolerance"
     )
     dwell_backlash: Annotated[Length, Field(ge=1e-9)] | None = Field(

@@ -7,17 +7,15 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, SignedLength, Spec
+from gearlink.core.base.spec import Length, SignedLength, Spec, unit
 from gearlink.core.machines.three_gear.dwell_spec import Placing
 
 
 class BackStep(Placing):
     """Specification for `synth back-step`."""
 
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="back-step of the output"
-    )
-    crank_angle: Annotated[float, Field(ge=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+    angle: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(None, description="back-step of the output")
+    crank_angle: Annotated[float, unit("deg", ge=0, lt=180)] | None = Field(
         None, description="crank angle phi12 of the back-step"
     )
 
@@ -31,16 +29,12 @@ class BackStep(Placing):
 class Speed(Placing):
     """Specification for `synth variable-speed`; the input turns at the mean of the two."""
 
-    min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="minimum output speed"
-    )
-    max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="maximum output speed"
-    )
-    uniform_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    min: Annotated[float, unit("1/min")] | None = Field(None, description="minimum output speed")
+    max: Annotated[float, unit("1/min", gt=0)] | None = Field(None, description="maximum output speed")
+    uniform_angle: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
         None, description="instead of min and max: crank angle in which the output runs at a nearly even speed"
     )
-    uniform_tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+    uniform_tolerance: Annotated[float, unit("1", gt=0, lt=1)] | None = Field(
         None, description="share by which that speed may differ from its level"
     )
 

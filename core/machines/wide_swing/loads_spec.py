@@ -6,10 +6,10 @@ from typing import Annotated, Any
 
 from pydantic import Field, field_validator
 
-from gearlink.core.base.spec import Spec
+from gearlink.core.base.spec import Spec, unit
 from gearlink.core.studies.loads.spec import Body, CommonLoads, Material, Roller
 
-Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+Direction = Annotated[float, unit("deg", ge=-360, le=360)]
 
 
 class SwingMasses(Spec):

@@ -23,6 +23,7 @@ from gearlink.core.base.spec import (
     Teeth,
     TolerancedSpec,
     also,
+    unit,
 )
 from gearlink.core.parts.gears.keys.pair import PairKeys
 
@@ -31,10 +32,10 @@ def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **w
     raise PydanticCustomError(code, message, {"key": key, **words})
 
 
-Phase: TypeAlias = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
-Stroke: TypeAlias = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
-Force: TypeAlias = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
-Mass: TypeAlias = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
+Phase: TypeAlias = Annotated[float, unit("deg", ge=0, lt=360)]
+Stroke: TypeAlias = Annotated[float, unit("deg", gt=0, lt=360)]
+Force: TypeAlias = Annotated[float, unit("N", gt=0)]
+Mass: TypeAlias = Annotated[float, unit("kg", gt=0)]
 Residual: TypeAlias = Annotated[
     float,
     Field(
@@ -60,19 +61,19 @@ class Pneumatic(Spec):
     type: Literal["pneumatic"] = Field(description="kind of device")
     pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
     arm: Length = Field(description="arm r_d on the rocker")
-    extension_ratio: Annotated[float, Field(gt=1, lt=2, json_schema_extra={"unit": "1"})] = Field(
+    extension_ratio: Annotated[float, unit("1", gt=1, lt=2)] = Field(
         13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
     )
     force: Force | None = Field(None, description="force of a given cylinder, instead of reserve")
-    pressure: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm^2"})] | None = Field(
+    pressure: Annotated[float, unit("N/mm^2", gt=0)] | None = Field(
         None, description="gauge pressure, 0.6 for 6 bar; sizes the bore"
     )
     bore: Length | None = Field(None, description="bore of a given cylinder, instead of pressure")
     rod_diameter: Distance = Field(0.0, description="of the rod; the cylinder pulls, with the side of its rod")
-    efficiency: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+    efficiency: Annotated[float, unit("1", gt=0, le=1)] = Field(
         1.0, description="share of the cylinder's force that reaches the pin"
     )
-    reservoir: Annotated[float, Field(gt=0, json_schema_extra={"unit": "l"})] | None = Field(
+    reservoir: Annotated[float, unit("l", gt=0)] | None = Field(
         None, description="volume of the air, that of the chamber at mid-swing included"
     )
     residual: Residual = 0.0
@@ -105,7 +106,7 @@ class SpringDevice(Spec):
     type: Literal["spring"] = Field(description="kind of device")
     pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
     arm: Length = Field(description="arm r_d on the rocker")
-    rate: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+    rate: Annotated[float, unit("N/mm", gt=0)] | None = Field(
         None, description="rate of a given spring, instead of reserve"
     )
     free_length: Length | None = Field(
@@ -159,9 +160,7 @@ class GravityDevice(Spec):
     type: Literal["gravity"] = Field(description="kind of device")
     distance: Length = Field(description="of the mass from the rocker axis")
     mass: Mass | None = Field(None, description="of a given pendulum, instead of reserve; counted in its own inertia")
-    gravity: Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s^2"})] = Field(
-        9.80665, description="acceleration of gravity"
-    )
+    gravity: Annotated[float, unit("m/s^2", gt=0)] = Field(9.80665, description="acceleration of gravity")
     residual: Residual = 0.0
     reserve: Reserve = 0.0
 
@@ -181,7 +180,7 @@ def _refuse_reserve(device: Pneumatic | SpringDevice | GravityDevice, given: str
 class SecondShaft(Spec):
     """The shaft of the return cam, next to that of the working cam."""
 
-    direction: Annotated[float, Field(gt=-360, lt=360, json_schema_extra={"unit": "deg"})] = Field(
+    direction: Annotated[float, unit("deg", gt=-360, lt=360)] = Field(
         description="from the rocker axis, counter-clockwise from the direction to the first shaft"
     )
     center_distance: Length | None = Field(None, description="from the rocker axis; default: that of the first cam")
@@ -210,7 +209,7 @@ class SwingCam(Spec):
     roller_clearance: Distance | None = Field(
         None, description="clearance of the roller in its slot, both flanks together; then the blow at mid-swing"
     )
-    contact_stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+    contact_stiffness: Annotated[float, unit("N/mm", gt=0)] | None = Field(
         None, description="of roller and flank; then the force of the blow"
     )
 
@@ -283,12 +282,10 @@ class SwingCycle(Spec):
 class SwingShaft(Spec):
     """The drive of the cam shaft; with it go the dynamic coefficient and the torque of the cam shaft."""
 
-    natural_frequency: Annotated[float, Field(gt=0, json_schema_extra={"unit": "Hz"})] = Field(
+    natural_frequency: Annotated[float, unit("Hz", gt=0)] = Field(
         description="natural frequency of the drive in torsion, in cycles a second"
     )
-    damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
-        0.0, description="damping ratio of the drive"
-    )
+    damping: Annotated[float, unit("1", ge=0, lt=1)] = Field(0.0, description="damping ratio of the drive")
     linkage_share: Share = Field(
         0.0, description="torque of the links that the device does not unload, share of the rocker's inertia torque"
     )
@@ -303,7 +300,7 @@ class SwingSlider(Spec):
     offset: SignedLength = Field(
         0.0, description="offset of the slide line; positive: the rod's height is crank sin(angle) + offset"
     )
-    mass: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})] = Field(description="mass of the slider")
+    mass: Annotated[float, unit("kg", gt=0)] = Field(description="mass of the slider")
 
 
 def _fixed_stroke(stroke: str) -> str:
@@ -330,11 +327,11 @@ class SwingLimits(LoadLimits):
     transmission_angle: AcuteAngle = Field(
         40.0, description="minimum transmission angle of `drive` and of a slider's rod"
     )
-    transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
+    transition_zone: Annotated[float, unit("1", gt=0, lt=0.5)] = Field(
         0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
     )
     cam_gap: Distance = Field(0.0, description="minimum clearance of cams on parallel shafts")
-    impact_speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] | None = Field(
+    impact_speed: Annotated[float, unit("mm/s", gt=0)] | None = Field(
         None, description="maximum speed of the roller's blow where it changes flanks; default: not checked"
     )
 
@@ -348,12 +345,12 @@ class WideSwingSpec(TolerancedSpec):
     )
     drive: SwingDrive | None = None
     cycle: SwingCycle | None = None
-    swing: Annotated[float, Field(gt=0, le=340, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
-    cycle_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    swing: Annotated[float, unit("deg", gt=0, le=340)] = Field(description="whole swing")
+    cycle_angle: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
         None, validate_default=True, description="cam angle of one stroke; optional with a cycle or a drive"
     )
-    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="of the cam")
-    inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
+    speed: Annotated[float, unit("1/min", gt=0)] = Field(description="of the cam")
+    inertia: Annotated[float, unit("kg m^2", ge=0)] = Field(
         description="moment of inertia on the rocker axis; 0 only where a slider carries the mass"
     )
     unloader: Pneumatic | SpringDevice | GravityDevice = Field(
@@ -364,15 +361,13 @@ class WideSwingSpec(TolerancedSpec):
     output_radius: Length | None = Field(
         None, description="radius on the rocker at which its end positions count; then their gain"
     )
-    operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
+    operating_speed_min: Annotated[float, unit("1/min", gt=0)] | None = Field(
         None, description="minimum speed at which the machine works; then the device is checked for harm there"
     )
     method: Literal["exact", "iteration"] = Field(
         "exact", description="iteration: show the source's own iteration and its error against the exact law"
     )
-    iteration_steps: Annotated[int, Field(ge=1, le=100_000, json_schema_extra={"unit": "1"})] = Field(
-        20, description="its steps per half stroke"
-    )
+    iteration_steps: Annotated[int, unit("1", ge=1, le=100_000)] = Field(20, description="its steps per half stroke")
     cam: SwingCam | None = None
     gears: ShaftGears | None = None
     slider: SwingSlider | None = None

@@ -7,10 +7,10 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, SignedLength, Spec, also
+from gearlink.core.base.spec import Length, SignedLength, Spec, also, unit
 
-ActionAngle = Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})]
-ArcAngle = Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})]
+ActionAngle = Annotated[float, unit("deg", gt=0, le=360)]
+ArcAngle = Annotated[float, unit("deg", gt=0, lt=180)]
 
 
 def _refused(key: str, message: str) -> PydanticCustomError:

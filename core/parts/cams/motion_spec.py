@@ -8,20 +8,20 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, OfFollower, Spec, Speed
+from gearlink.core.base.spec import Entries, OfFollower, Spec, Speed, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.spec import SegmentLaw
 
-Lift = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"}), OfFollower("deg")]
+Lift = Annotated[float, unit("mm", ge=-1e6, le=1e6), OfFollower("deg")]
 Row = Annotated[list[Lift], Field(min_length=2, max_length=2), Entries("[cam angle, lift]", "[50, 2]", ("deg",))]
-SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
+SteepAngle = Annotated[float, unit("deg", gt=0, lt=90)]
 FEWEST_POINTS = 4
 
 
 class Segment(Spec):
     """A stretch of the cam angle with one law of motion; it begins where the one before ends."""
 
-    to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+    to: Annotated[float, unit("deg", gt=0, le=360)] = Field(
         description="cam angle at which it ends; that of the last segment is 360"
     )
     lift: Lift | None = Field(None, description="lift at its end (oscillating follower: deg); default: a dwell")
@@ -47,7 +47,7 @@ class Segment(Spec):
         return self
 
 
-Column = Annotated[int, Field(ge=1, le=1000, json_schema_extra={"unit": "1"})]
+Column = Annotated[int, unit("1", ge=1, le=1000)]
 
 
 class FromFile(Spec):

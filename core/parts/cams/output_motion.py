@@ -12,7 +12,7 @@ from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import at_key
-from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.base.spec import Entries, Spec, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.motion_spec import FEWEST_POINTS, FromFile, Segment
 from gearlink.core.parts.cams.spec import SegmentLaw
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 TURN = 2.0 * math.pi
 _FIT = 1e-9
-OutputAngle = Annotated[float, Field(ge=-36_000, le=36_000, json_schema_extra={"unit": "deg"})]
+OutputAngle = Annotated[float, unit("deg", ge=-36_000, le=36_000)]
 
 
 OutputRow = Annotated[
@@ -42,7 +42,7 @@ class OutputTable(FromFile):
 class OutputSegment(Spec):
     """A stretch of the input angle with one law; it begins where the one before ends."""
 
-    to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+    to: Annotated[float, unit("deg", gt=0, le=360)] = Field(
         description="input angle at which it ends; that of the last segment is 360"
     )
     output: OutputAngle | None = Field(

@@ -8,13 +8,13 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.base.spec import Entries, Spec, unit
 from gearlink.core.base.wording import short, unlike
 
 PLAIN = {"unit": "1"}
 Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra=PLAIN)]
 Bound = Annotated[float, Field(gt=0, le=1e9, json_schema_extra=PLAIN)]
-Hertz = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})]
+Hertz = Annotated[float, unit("Hz", gt=0, le=1e7)]
 Periods = Annotated[float, Field(gt=0, le=100, json_schema_extra=PLAIN)]
 Damping = Annotated[float, Field(ge=0, lt=1, json_schema_extra=PLAIN)]
 Rate = Annotated[float, Field(gt=0, le=1e7, json_schema_extra=PLAIN)]

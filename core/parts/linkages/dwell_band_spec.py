@@ -6,19 +6,19 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gearlink.core.base.spec import Spec
+from gearlink.core.base.spec import Spec, unit
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance
 
 
 class DwellBand(Spec):
     """A dwell within a tolerance: a crank angle, a tolerance, or both."""
 
-    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    window: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
         None, description="crank angle over which the output stays within +-tolerance"
     )
     tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
         None, description="output tolerance +- of the window; alone: the longest window is sought"
     )
-    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+    margin: Annotated[float, unit("1", ge=0, lt=1)] | None = Field(
         None, description="share of the tolerance that the design keeps in reserve, with tolerance alone; default 0.01"
     )

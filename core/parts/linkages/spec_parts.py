@@ -7,16 +7,9 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import (
-    AcuteAngle,
-    Distance,
-    DrawingLimits,
-    GearLimits,
-    LoadLimits,
-    SignedLength,
-)
+from gearlink.core.base.spec import AcuteAngle, Distance, DrawingLimits, GearLimits, LoadLimits, SignedLength, unit
 
-TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
+TurnAngle = Annotated[float, unit("deg", ge=-3600, le=3600)]
 
 
 class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
@@ -33,7 +26,7 @@ class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
 
 LEAST_TOLERANCE = 1e-9
 """[deg]; of a smaller one double precision leaves fewer than five digits of the dwell's crank angle."""
-DwellTolerance = Annotated[float, Field(ge=LEAST_TOLERANCE, json_schema_extra={"unit": "deg"})]
+DwellTolerance = Annotated[float, unit("deg", ge=LEAST_TOLERANCE)]
 
 
 def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth: bool = False) -> None:

@@ -7,10 +7,10 @@ from typing import Annotated
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Distance, Length, Ratio, Spec
+from gearlink.core.base.spec import Distance, Length, Ratio, Spec, unit
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
 
-Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+Plain = Annotated[float, unit("1", ge=-1e6, le=1e6)]
 
 
 class InputRange(Spec):
@@ -31,10 +31,8 @@ class FrontLay(Spec):
     """The front lay that a sheet arrives at."""
 
     distance: Length = Field(description="last way before the lay")
-    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] = Field(
-        description="maximum speed of the sheet on that way"
-    )
-    angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    speed: Annotated[float, unit("mm/s", gt=0)] = Field(description="maximum speed of the sheet on that way")
+    angle: Annotated[float, unit("deg", ge=0, lt=360)] | None = Field(
         None, description="crank angle of the arrival; default: where the sheet arrives most gently"
     )
 
@@ -47,7 +45,7 @@ class Feed(Spec):
         0.0, description="thickness of the belt, which runs at half of it above the radius"
     )
     pitch: Length | None = Field(None, description="pitch of the chain, with teeth instead of radius")
-    teeth: Annotated[int, Field(ge=5, le=1000, json_schema_extra={"unit": "teeth"})] | None = Field(
+    teeth: Annotated[int, unit("teeth", ge=5, le=1000)] | None = Field(
         None, description="teeth of the chain's sprocket"
     )
     ratio: Ratio = Field(1.0, description="speed of the feed's shaft over that of the output gear")

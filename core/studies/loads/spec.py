@@ -9,22 +9,22 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec
+from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec, unit
 from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import unlike
 
-Kilograms = Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "kg"})]
-Inertia = Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
-Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
+Kilograms = Annotated[float, unit("kg", ge=0, le=1e9)]
+Inertia = Annotated[float, unit("kg m^2", ge=0, le=1e12)]
+Place = Annotated[float, unit("mm", ge=-1e6, le=1e6)]
 Vector = Annotated[list[Place], Field(min_length=2, max_length=2), Entries("[x, y]")]
-Newton = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N"})]
-NewtonMetre = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N m"})]
-Gravity = Annotated[float, Field(ge=-1e3, le=1e3, json_schema_extra={"unit": "m/s^2"})]
-Speed = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1/min"})]
-Number = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "1"})]
-Coefficient = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
+Newton = Annotated[float, unit("N", ge=-1e12, le=1e12)]
+NewtonMetre = Annotated[float, unit("N m", ge=-1e12, le=1e12)]
+Gravity = Annotated[float, unit("m/s^2", ge=-1e3, le=1e3)]
+Speed = Annotated[float, unit("1/min", ge=-1e6, le=1e6)]
+Number = Annotated[float, unit("1", ge=-1e12, le=1e12)]
+Coefficient = Annotated[float, unit("1", ge=0, lt=1)]
 Pair = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[angle, value]", units=("deg",))]
-AboveZero = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N/mm"})]
+AboveZero = Annotated[float, unit("N/mm", gt=0, le=1e12)]
 
 
 class Body(Spec):
@@ -102,7 +102,7 @@ class Load(Spec):
         )
     )
     point: Vector | None = Field(None, description="point of the link where the vector acts, in link coordinates")
-    resistance: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
+    resistance: Annotated[float, unit("1", ge=0, le=1e12)] | None = Field(
         None, description="force (N) or torque (N m) that is always against the motion"
     )
 
@@ -128,7 +128,7 @@ class Spring(Spec):
     points: Annotated[list[Vector], Field(min_length=2, max_length=2), Entries("[[x, y], [x, y]]")] = Field(
         description="its ends, each in its link's coordinates; those of the frame in the design's"
     )
-    rate: Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "N/mm"})] = Field(description="spring rate")
+    rate: Annotated[float, unit("N/mm", ge=0, le=1e9)] = Field(description="spring rate")
     free_length: Length = Field(description="length without force (with preload: at the preload)")
     preload: Newton = Field(0.0, description="pull at the free length")
 
@@ -137,17 +137,15 @@ class Friction(Spec):
     """Coefficients of friction; a joint of its own has its own key."""
 
     pins: Coefficient = Field(0.0, description="coefficient of friction in all pins")
-    pin_radius: Annotated[float, Field(ge=0, le=1e5, json_schema_extra={"unit": "mm"})] = Field(
-        0.0, description="radius of the pins"
-    )
+    pin_radius: Annotated[float, unit("mm", ge=0, le=1e5)] = Field(0.0, description="radius of the pins")
     guides: Coefficient = Field(0.0, description="coefficient of friction in all guides")
     contacts: Coefficient = Field(
         0.0, description="coefficient of friction of flat faces and knife edges on their cams"
     )
-    meshes: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+    meshes: Annotated[float, unit("1", gt=0, le=1)] = Field(
         1.0, description="efficiency of all gear meshes, output over input power whichever gear drives"
     )
-    joints: dict[str, Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]] = Field(
+    joints: dict[str, Annotated[float, unit("1", ge=0, le=1)]] = Field(
         {}, description="coefficient of a pin, guide, face or edge, or efficiency of a mesh, by its name"
     )
 
@@ -155,10 +153,8 @@ class Friction(Spec):
 class Flywheel(Spec):
     """A flywheel on the input shaft."""
 
-    inertia: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})] | None = Field(
-        None, description="its moment of inertia"
-    )
-    fluctuation: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+    inertia: Annotated[float, unit("kg m^2", ge=0, le=1e12)] | None = Field(None, description="its moment of inertia")
+    fluctuation: Annotated[float, unit("1", gt=0, lt=1)] | None = Field(
         None, description="(maximum - minimum)/mean speed allowed, the mean of these two; alone, the inertia is sought"
     )
 
@@ -172,23 +168,21 @@ class Flywheel(Spec):
 class Motor(Spec):
     """A motor whose torque falls linearly with its speed."""
 
-    no_load_speed: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "1/min"})] = Field(
+    no_load_speed: Annotated[float, unit("1/min", gt=0, le=1e7)] = Field(
         description="speed without torque, at the motor's shaft"
     )
-    rated_speed: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="speed at rated_torque"
-    )
-    rated_torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
+    rated_speed: Annotated[float, unit("1/min", gt=0, le=1e7)] | None = Field(None, description="speed at rated_torque")
+    rated_torque: Annotated[float, unit("N m", gt=0, le=1e9)] | None = Field(
         None, description="torque that it may give all the time"
     )
-    slope: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N m s"})] | None = Field(
+    slope: Annotated[float, unit("N m s", gt=0, le=1e12)] | None = Field(
         None, description="torque lost per rad/s, instead of rated_speed and rated_torque"
     )
     inertia: Inertia = Field(0.0, description="moment of inertia at the motor's shaft")
-    ratio: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] = Field(
+    ratio: Annotated[float, unit("1", gt=0, le=1e6)] = Field(
         1.0, description="motor revolutions per revolution of the input"
     )
-    max_torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
+    max_torque: Annotated[float, unit("N m", gt=0, le=1e9)] | None = Field(
         None, description="maximum torque for a moment"
     )
 
@@ -212,20 +206,16 @@ class Bearing(Spec):
     """A bearing of a pin."""
 
     kind: Literal["ball", "roller", "needle", "plain"] = Field(description="rolling bodies, or a plain bearing")
-    dynamic_rating: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
+    dynamic_rating: Annotated[float, unit("N", gt=0, le=1e12)] | None = Field(
         None, description="basic dynamic load rating C"
     )
-    life: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "h"})] | None = Field(
-        None, description="minimum life"
-    )
-    reliability: Annotated[float, Field(ge=90, le=99.95, json_schema_extra={"unit": "%"})] = Field(
+    life: Annotated[float, unit("h", gt=0, le=1e9)] | None = Field(None, description="minimum life")
+    reliability: Annotated[float, unit("%", ge=90, le=99.95)] = Field(
         90.0, description="share of bearings that reach the life"
     )
     width: Length | None = Field(None, description="plain: width b")
     diameter: Length | None = Field(None, description="plain: diameter d")
-    rolling_bodies: Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="rolling bodies in a row"
-    )
+    rolling_bodies: Annotated[int, unit("1", ge=3, le=1000)] | None = Field(None, description="rolling bodies in a row")
 
     @model_validator(mode="after")
     def _complete(self) -> Bearing:
@@ -255,15 +245,13 @@ class Bearing(Spec):
 class Vibration(Spec):
     """The output as a mass on a spring."""
 
-    frequency: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})] | None = Field(
-        None, description="natural frequency"
-    )
-    stiffness: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "1"})] | OfShaft | None = Field(
+    frequency: Annotated[float, unit("Hz", gt=0, le=1e7)] | None = Field(None, description="natural frequency")
+    stiffness: Annotated[float, unit("1", gt=0, le=1e12)] | OfShaft | None = Field(
         None,
         description="instead of frequency: of the output shaft (N m/rad or its sizes) or a slider's drive (N/mm)",
     )
     damping: Coefficient | None = Field(None, description="damping ratio; default: 0.03, assumed")
-    allowed_residual: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
+    allowed_residual: Annotated[float, unit("1", gt=0, le=1e6)] | None = Field(
         None, description="maximum vibration left in the dwell, deg or mm as the output moves"
     )
 
@@ -280,10 +268,10 @@ class Roller(Spec):
     width: Length = Field(description="width of the contact")
     inertia: Inertia = Field(0.0, description="moment of inertia of a roller about its axis")
     friction: Coefficient = Field(0.08, description="coefficient of friction of roller and cam")
-    bearing_moment: Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "N m"})] = Field(
+    bearing_moment: Annotated[float, unit("N m", ge=0, le=1e9)] = Field(
         0.0, description="moment of friction in the roller's bearing"
     )
-    preload: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "N"})] = Field(
+    preload: Annotated[float, unit("N", ge=0, le=1e12)] = Field(
         0.0, description="force between both rollers and their cams at rest, where two rollers run on two cams"
     )
     stiffness: (
@@ -294,13 +282,9 @@ class Roller(Spec):
 class Material(Spec):
     """Cam and roller, of one material."""
 
-    modulus: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})] = Field(
-        206_000.0, description="modulus of elasticity"
-    )
-    poisson: Annotated[float, Field(ge=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
-        0.3, description="Poisson's ratio"
-    )
-    allowed_pressure: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})] | None = Field(
+    modulus: Annotated[float, unit("N/mm^2", gt=0, le=1e7)] = Field(206_000.0, description="modulus of elasticity")
+    poisson: Annotated[float, unit("1", ge=0, lt=0.5)] = Field(0.3, description="Poisson's ratio")
+    allowed_pressure: Annotated[float, unit("N/mm^2", gt=0, le=1e7)] | None = Field(
         None, description="maximum Hertzian pressure"
     )
 
@@ -308,9 +292,7 @@ class Material(Spec):
 class Balance(Spec):
     """Counterweights."""
 
-    share: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        1.0, description="share of the full force balance"
-    )
+    share: Annotated[float, unit("1", ge=0, le=1)] = Field(1.0, description="share of the full force balance")
 
 
 class CommonLoads(Spec):

@@ -7,16 +7,15 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import DesignSpec, Spec
+from gearlink.core.base.spec import DesignSpec, Spec, unit
 
 _MOST_OBJECTIVES = 6
 _MOST_DESIGNS = 1e12
 
-_UNIT = {"unit": "1"}
 
-Amount = Annotated[float, Field(json_schema_extra={"unit": "the key's"})]
-Value = Amount | Annotated[int, Field(json_schema_extra={"unit": "the key's"})] | str | bool
-Resolution = Annotated[float, Field(json_schema_extra={"unit": "the quantity's"})] | str
+Amount = Annotated[float, unit("the key's")]
+Value = Amount | Annotated[int, unit("the key's")] | str | bool
+Resolution = Annotated[float, unit("the quantity's")] | str
 
 
 class VariableSpec(Spec):
@@ -24,10 +23,10 @@ class VariableSpec(Spec):
 
     from_: Amount | None = Field(None, alias="from", description="minimum value, in multiples of `times`")
     to: Amount | None = Field(None, description="maximum value, in multiples of `times`")
-    step: Annotated[float, Field(gt=0, json_schema_extra={"unit": "the key's"})] | None = Field(
+    step: Annotated[float, unit("the key's", gt=0)] | None = Field(
         None, description="step of the range; default 1 for whole numbers; without it real numbers are sampled"
     )
-    points: Annotated[int, Field(ge=2, le=100_000, json_schema_extra=_UNIT)] | None = Field(
+    points: Annotated[int, unit("1", ge=2, le=100_000)] | None = Field(
         None, description="number of values from `from` to `to`, instead of step"
     )
     log: bool = Field(False, description="sampled, or divided into points, by equal ratios")
@@ -83,18 +82,16 @@ class Sampling(Spec):
     method: Literal["auto", "grid", "sobol"] = Field(
         "auto", description="auto: the whole grid where there is one within the budget, else a sample"
     )
-    budget: Annotated[float, Field(ge=1, le=_MOST_DESIGNS, json_schema_extra=_UNIT)] | None = Field(
+    budget: Annotated[float, unit("1", ge=1, le=_MOST_DESIGNS)] | None = Field(
         None, description="most designs; default 1e8 on a grid, 2^17 sampled (20,000 and 2^12 of a scalar kind)"
     )
-    seed: Annotated[int, Field(ge=0, le=2**31 - 1, json_schema_extra=_UNIT)] = Field(
-        1, description="seed of the sample"
-    )
+    seed: Annotated[int, unit("1", ge=0, le=2**31 - 1)] = Field(1, description="seed of the sample")
 
 
 class Refine(Spec):
     """Local refinement of a sample."""
 
-    steps: Annotated[int, Field(ge=0, le=1000, json_schema_extra=_UNIT)] = Field(
+    steps: Annotated[int, unit("1", ge=0, le=1000)] = Field(
         40, description="most rounds from each kept design; 0: none"
     )
 

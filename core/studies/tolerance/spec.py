@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
-from gearlink.core.base.spec import Angle, Distance, Length, Spec, also
+from gearlink.core.base.spec import Angle, Distance, Length, Spec, also, unit
 from gearlink.core.base.torsion import OfShaft
 
 _SIZES = (
@@ -24,14 +24,13 @@ _SIZES = (
     "eccentricity",
     "measured",
 )
-_ONE = {"unit": "1"}
-Deviation = Annotated[float, Field(json_schema_extra={"unit": "mm"})]  # of an angle deg
-Width = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
-Positive = Annotated[float, Field(gt=0, json_schema_extra=_ONE)]
-FlankClass = Annotated[int, Field(json_schema_extra={**_ONE, "minimum": 1, "maximum": 11})]
-Grade = Annotated[int, Field(json_schema_extra={**_ONE, "minimum": 1, "maximum": 18})]
-Torque = Annotated[float, Field(json_schema_extra={"unit": "N m"})]
-Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+Deviation = Annotated[float, unit("mm")]  # of an angle deg
+Width = Annotated[float, unit("mm", gt=0)]
+Positive = Annotated[float, unit("1", gt=0)]
+FlankClass = Annotated[int, Field(json_schema_extra={"unit": "1", "minimum": 1, "maximum": 11})]
+Grade = Annotated[int, Field(json_schema_extra={"unit": "1", "minimum": 1, "maximum": 18})]
+Torque = Annotated[float, unit("N m")]
+Share = Annotated[float, unit("1", gt=0, lt=1)]
 Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
 
 
@@ -140,7 +139,7 @@ class Correlation(Spec):
     """Sources that vary together."""
 
     sources: Annotated[list[str], Field(min_length=2)] = Field(description="keys of `sources`")
-    rho: Annotated[float, Field(json_schema_extra={**_ONE, "minimum": -1, "maximum": 1})] = Field(
+    rho: Annotated[float, Field(json_schema_extra={"unit": "1", "minimum": -1, "maximum": 1})] = Field(
         description="correlation of each two of them (Gaussian copula)"
     )
 
@@ -154,7 +153,7 @@ class Correlation(Spec):
 class Cost(Spec):
     """What a finer grade costs."""
 
-    ratio: Annotated[float, Field(gt=1, json_schema_extra=_ONE)] = Field(
+    ratio: Annotated[float, unit("1", gt=1)] = Field(
         1.6, description="cost of one IT grade finer over that of the grade"
     )
 
@@ -165,10 +164,8 @@ class Tolerance(Spec):
     command: str | None = Field(
         None, description="command whose quantities and checks are evaluated; default the file's first"
     )
-    seed: Annotated[int, Field(ge=0, le=2**32 - 1, json_schema_extra=_ONE)] = Field(
-        1, description="the same seed gives the same samples"
-    )
-    samples: Annotated[int, Field(ge=16, le=2**24, json_schema_extra=_ONE)] | None = Field(
+    seed: Annotated[int, unit("1", ge=0, le=2**32 - 1)] = Field(1, description="the same seed gives the same samples")
+    samples: Annotated[int, unit("1", ge=16, le=2**24)] | None = Field(
         None, description="rounded up to 16 x 2^k; default 131072, 4096 where each design is computed alone"
     )
     sources: dict[str, ToleranceSource] = Field(description="tolerances of dimensions, by the keys of this file")
@@ -202,7 +199,7 @@ class Register(Spec):
     """What the register of a printing machine may lose, for the command register."""
 
     tolerance: Length | None = Field(None, description="maximum error that is allowed, to either side")
-    at: str | Annotated[float, Field(json_schema_extra={"unit": "deg"})] | None = Field(
+    at: str | Annotated[float, unit("deg")] | None = Field(
         None, description="dwell, zone, handover, range, or an input angle in degrees"
     )
     method: Literal["worst", "rss", "mc"] = Field("rss", description="how the band is computed")
@@ -212,19 +209,19 @@ class Register(Spec):
     output: str | None = Field(
         None, description="whose error counts, where there are several outputs; default the first"
     )
-    direction: Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})] | None = Field(
+    direction: Annotated[float, unit("deg", ge=-360, le=360)] | None = Field(
         None, description="of an output that is a point: direction in which its error counts; default along x"
     )
     backlash: Distance | dict[str, Distance] | None = Field(
         None, description="circumferential backlash of each mesh by its name, or one for all"
     )
     cam_error: Length | None = Field(None, description="maximum error of a cam's profile, at right angles to it")
-    output_inertia: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})] | None = Field(
+    output_inertia: Annotated[float, unit("kg m^2", gt=0)] | None = Field(
         None, description="moment of inertia of all that turns with the output"
     )
     friction: Annotated[Torque, Field(ge=0)] = Field(0.0, description="friction torque on the output")
     load: Torque = Field(0.0, description="torque that the machine takes from the output")
-    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m/rad"})] | OfShaft | None = Field(
+    stiffness: Annotated[float, unit("N m/rad", gt=0)] | OfShaft | None = Field(
         None, description="of the output shaft, or its sizes; default: rigid"
     )
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.base.spec import Entries, Spec, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.gears.keys.types import AccuracyGrade, Stress
 from gearlink.core.parts.gears.rating.conditions import Conditions, Modification, Point, Shaft, System
@@ -31,15 +31,15 @@ def _a_material(name: str) -> str:
 
 
 MaterialName = Annotated[str, AfterValidator(_a_material), Field(json_schema_extra={"enum": list(MATERIALS)})]
-Hardness = Annotated[float, Field(ge=50, le=1200, json_schema_extra={"unit": "1"})]
-Roughness = Annotated[float, Field(gt=0, le=500, json_schema_extra={"unit": "um"})]
-Micrometers = Annotated[float, Field(gt=0, le=1e4, json_schema_extra={"unit": "um"})]
-Viscosity = Annotated[float, Field(ge=1, le=1e4, json_schema_extra={"unit": "mm^2/s"})]
-Bore = Annotated[float, Field(ge=0, le=1e6, json_schema_extra={"unit": "mm"})]
-Reach = Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "mm"})]
-Contacts = Annotated[float, Field(ge=0, le=100, json_schema_extra={"unit": "1"})]
-WebRatio = Annotated[float, Field(ge=0.2, le=30, json_schema_extra={"unit": "1"})]
-MeanStress = Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})]
+Hardness = Annotated[float, unit("1", ge=50, le=1200)]
+Roughness = Annotated[float, unit("um", gt=0, le=500)]
+Micrometers = Annotated[float, unit("um", gt=0, le=1e4)]
+Viscosity = Annotated[float, unit("mm^2/s", ge=1, le=1e4)]
+Bore = Annotated[float, unit("mm", ge=0, le=1e6)]
+Reach = Annotated[float, unit("mm", gt=0, le=1e6)]
+Contacts = Annotated[float, unit("1", ge=0, le=100)]
+WebRatio = Annotated[float, unit("1", ge=0.2, le=30)]
+MeanStress = Annotated[float, unit("1", gt=0, le=1)]
 
 _TWO = Field(min_length=2, max_length=2)
 TwoNames = Annotated[list[MaterialName], _TWO]
@@ -66,10 +66,10 @@ class LubricantSpec(Spec):
     vg: Viscosity | None = Field(None, description="viscosity class ISO VG, the viscosity at 40 deg C")
     viscosity_40: Viscosity | None = Field(None, description="viscosity at 40 deg C, instead of vg")
     viscosity_100: Viscosity | None = Field(None, description="viscosity at 100 deg C, for scuffing")
-    temperature: Annotated[float, Field(ge=-50, le=250, json_schema_extra={"unit": "deg C"})] | None = Field(
+    temperature: Annotated[float, unit("deg C", ge=-50, le=250)] | None = Field(
         None, description="temperature of the oil, for scuffing"
     )
-    scuffing_stage: Annotated[int, Field(ge=8, le=14, json_schema_extra={"unit": "1"})] | None = Field(
+    scuffing_stage: Annotated[int, unit("1", ge=8, le=14)] | None = Field(
         None, description="load stage of the test FZG A/8.3/90 that the oil fails at, for scuffing"
     )
 
@@ -134,21 +134,15 @@ class FaceSpec(Spec):
 class PointSpec(Spec):
     """A row of the load spectrum, in multiples of `load`."""
 
-    torque: Annotated[float, Field(ge=0, le=1e3, json_schema_extra={"unit": "1"})] = Field(
-        1.0, description="torque over load.torque"
-    )
-    speed: Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "1"})] = Field(
-        1.0, description="speed over load.speed"
-    )
-    share: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        description="share of the life; all add up to 1"
-    )
+    torque: Annotated[float, unit("1", ge=0, le=1e3)] = Field(1.0, description="torque over load.torque")
+    speed: Annotated[float, unit("1", gt=0, le=1e3)] = Field(1.0, description="speed over load.speed")
+    share: Annotated[float, unit("1", ge=0, le=1)] = Field(description="share of the life; all add up to 1")
 
 
 class RatingSpec(Spec):
     """Life, material, accuracy, surface and oil; what stands for each gear is one value, or a list of two."""
 
-    life: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "h"})] = Field(description="required life")
+    life: Annotated[float, unit("h", gt=0, le=1e9)] = Field(description="required life")
     material: MaterialName | TwoNames | None = Field(
         None, description="steel or class of ISO 6336-5; optional if the material gives both limits"
     )
@@ -176,15 +170,15 @@ class RatingSpec(Spec):
     system: System = Field(
         "pair", description="pair, sun-planet (gear 1 the sun) or planet-ring, as seen from the carrier"
     )
-    planets: Annotated[int, Field(ge=1, le=20, json_schema_extra={"unit": "1"})] | None = Field(
+    planets: Annotated[int, unit("1", ge=1, le=20)] | None = Field(
         None, description="planets of sun-planet and planet-ring"
     )
-    reduced_mass: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "kg/mm"})] | None = Field(
+    reduced_mass: Annotated[float, unit("kg/mm", gt=0, le=1e9)] | None = Field(
         None, description="m_red, instead of the one of system and bore"
     )
     contacts: Contacts | TwoContacts = Field(1.0, description="load contacts of a tooth per revolution")
     face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; default: none")
-    long_life: Annotated[float, Field(ge=0.85, le=1, json_schema_extra={"unit": "1"})] = Field(
+    long_life: Annotated[float, unit("1", ge=0.85, le=1)] = Field(
         0.85, description="factor of the strength at 1e10 load cycles; 1 only for best material and experience"
     )
     pitting: Literal["none", "allowed"] = Field("none", description="whether some pits are allowed")

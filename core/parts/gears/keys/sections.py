@@ -8,11 +8,11 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Coefficient, Spec
+from gearlink.core.base.spec import Coefficient, Spec, unit
 from gearlink.core.parts.gears.keys.types import Factor, Shift
 
-Protuberance = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
-Rounding = Annotated[float, Field(ge=0, le=3, json_schema_extra={"unit": "1"})]
+Protuberance = Annotated[float, unit("1", ge=0, le=1)]
+Rounding = Annotated[float, unit("1", ge=0, le=3)]
 
 
 class ToolSpec(Spec):
@@ -30,9 +30,7 @@ class ToolSpec(Spec):
 class CutterSpec(Spec):
     """The pinion cutter that shapes a ring, in modules of the normal section."""
 
-    teeth: Annotated[int, Field(ge=3, le=10_000, json_schema_extra={"unit": "teeth"})] = Field(
-        description="teeth of the cutter"
-    )
+    teeth: Annotated[int, unit("teeth", ge=3, le=10_000)] = Field(description="teeth of the cutter")
     shift: Shift = Field(0.0, description="profile shift of the cutter as it is ground")
     addendum: Coefficient = Field(1.25, description="addendum coefficient of the cutter")
     rounding: Rounding = Field(0.25, description="radius of the cutter's tip corner")
@@ -41,7 +39,7 @@ class CutterSpec(Spec):
 OneOrTwoTools = ToolSpec | Annotated[list[ToolSpec | None], Field(min_length=2, max_length=2)]
 
 
-Allowance = Annotated[float, Field(ge=-100, le=100, json_schema_extra={"unit": "mm"})]
+Allowance = Annotated[float, unit("mm", ge=-100, le=100)]
 TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
 _SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
 
@@ -100,16 +98,14 @@ class FactorSpec(Spec):
 class LoadSpec(Spec):
     """What the pair carries: torque, power with speed, or tangential force."""
 
-    torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
-        None, description="torque of gear 1"
-    )
-    power: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "kW"})] | None = Field(
+    torque: Annotated[float, unit("N m", gt=0, le=1e9)] | None = Field(None, description="torque of gear 1")
+    power: Annotated[float, unit("kW", gt=0, le=1e6)] | None = Field(
         None, description="power, with speed, instead of torque"
     )
-    speed: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
+    speed: Annotated[float, unit("1/min", gt=0, le=1e6)] | None = Field(
         None, description="speed of gear 1; with torque or force for the sliding speeds of the table path alone"
     )
-    tangential_force: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
+    tangential_force: Annotated[float, unit("N", gt=0, le=1e12)] | None = Field(
         None, description="force on the reference circle, instead of torque"
     )
     factors: FactorSpec = FactorSpec.model_construct()

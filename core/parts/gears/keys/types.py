@@ -6,17 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gearlink.core.base.spec import Coefficient, Length, Spec
+from gearlink.core.base.spec import Coefficient, Length, Spec, unit
 
-Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
-HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg"})]
-Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"})]
-FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
-Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
-SpanTeeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
-Factor = Annotated[float, Field(gt=0, le=100, json_schema_extra={"unit": "1"})]
+Shift = Annotated[float, unit("1", ge=-5, le=5)]
+HelixAngle = Annotated[float, unit("deg", ge=0, le=45)]
+Alteration = Annotated[float, unit("1", ge=-3, le=3)]
+FaceWidth = Annotated[float, unit("mm", ge=1e-3, le=1e6)]
+Rim = Annotated[float, unit("mm", ge=1e-3, le=1e6)]
+SpanTeeth = Annotated[int, unit("teeth", ge=1, le=10_000)]
+Factor = Annotated[float, unit("1", gt=0, le=100)]
 Hand = Literal["right", "left"]
-AccuracyGrade = Annotated[int, Field(ge=0, le=12, json_schema_extra={"unit": "1"})]
+AccuracyGrade = Annotated[int, unit("1", ge=0, le=12)]
 
 TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
 TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
@@ -37,9 +37,7 @@ class ToothKeys(Spec):
 
     helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circle, its magnitude")
     addendum: Coefficient = Field(1.0, description="addendum coefficient")
-    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        0.25, description="clearance coefficient"
-    )
+    clearance: Annotated[float, unit("1", ge=0, le=1)] = Field(0.25, description="clearance coefficient")
     load_share: Literal["third", "half"] = Field(
         "third", description="share of a flank pair next to another: third (1/3 to 2/3) or half"
     )
@@ -49,8 +47,8 @@ class ToothKeys(Spec):
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
 
 
-Stress = Annotated[float, Field(ge=1e-3, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
-Poisson = Annotated[float, Field(ge=0, le=0.5, json_schema_extra={"unit": "1"})]
+Stress = Annotated[float, unit("N/mm^2", ge=1e-3, le=1e7)]
+Poisson = Annotated[float, unit("1", ge=0, le=0.5)]
 
 
 class MaterialSpec(Spec):
