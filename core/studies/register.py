@@ -32,7 +32,7 @@ from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget,
 from gearlink.core.studies.tolerance.correlation import coordinate_root, of_sizes, together
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import is_shared, of_replications, replication, rounded_up
-from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
+from gearlink.core.studies.tolerance.sources import Parts, Scatter, deviations_of, is_of_parts, scatters
 from gearlink.core.studies.tolerance.spec import Register, Tolerance
 
 Off: TypeAlias = Mapping[str, Any] | None
@@ -253,8 +253,21 @@ class RegisterDesign(Design):
         return {}
 
     def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
-        """Errors of machines as manufactured at some input angles; (places, N) array [mm]."""
-        return sampled_errors(self, input_angle, torque_sign, parts)
+        """Errors of machines as manufactured, the whole chain of each closed; (places, N) array [mm].
+
+        Parameters
+            input_angle : (places,) array [rad]
+            parts : errors of all machines by source; of pins and gears vectors
+        """
+        chain = self.chain(input_angle, torque_sign)
+        output = self.output(input_angle[:, None])
+        errors: list[Any] = []
+        for source in self.sources:
+            error = parts[source.key]
+            if source.coordinates == 2 and not self.moves.is_vector(source):
+                error = np.real(error)
+            errors += [(shift, error) for shift in self.shifts(source, chain.mechanism)]
+        return chain.output(lambda made: output(made, parts), errors, output)
 
     # Torque and backlash
 
@@ -379,18 +392,43 @@ class RegisterDesign(Design):
 
     @cached_property
     def sampled_places(self) -> Reals:
-        """Input angles at which samples are closed [rad]."""
-        return places(self.input_angles)
+        """Input angles at which samples are closed [rad], some of the stretch with its ends among them."""
+        count = self.input_angles.size
+        chosen: Reals = self.input_angles[np.linspace(0, count - 1, min(count, _PLACES)).astype(int)]
+        return chosen
 
     @cached_property
     def own_errors(self) -> list[list[Contribution]]:
-        """What the machine adds there to the sources of the file, for either torque sign."""
-        return own_errors(self, self.sampled_places)
+        """What the machine adds there to the sources of the file, for either torque sign, as it counts over them."""
+        chosen, keys = self.sampled_places, {one.key for one in self.sources}
+        start = 0 if chosen.size > 1 else None
+        every = [self.contributions(chosen, sign) for sign in SIGNS]
+        return [[replace(one, gain=counted(one, start)) for one in row if one.source not in keys] for row in every]
 
     @cached_property
     def sampled_band(self) -> list[float]:
         """What 99.73 % of the samples of the whole chain keep, to either side, for either torque sign [mm]."""
-        return sampled_band(self)
+        _ = self.correlations, self.input_angles  # refused before anything is sampled
+        model = type(self.spec)
+        text = str(self.spec.model_dump_json(exclude_unset=True, exclude_none=True, by_alias=True))
+        share = partial(_share_of, type(self), model, text) if is_shared() else self.sampled_share
+        found = np.mean(list(of_replications(share)), axis=0)
+        return [float(one.max()) for one in found]
+
+    def sampled_share(self, number: int) -> Reals:
+        """The band at the places of the samples by one replication; (2, places) array [mm]."""
+        section, chosen, own = self.spec.tolerance, self.sampled_places, self.own_errors
+        width = sum(one.coordinates for one in self.sources)
+        points = replication(width + len(own[0]), rounded_up(section.samples or _SAMPLES), section.seed, number)
+        parts = deviations_of(self.sources, together(points[:, :width], coordinate_root(section, self.sources)))
+        bands, errors = [], np.zeros(0)
+        for sign, beside in zip(SIGNS, own, strict=True):
+            if sign == SIGNS[0] or self.chain(chosen, sign) is not self.chain(chosen, SIGNS[0]):
+                errors = self.sampled_errors(chosen, sign, parts)
+                if chosen.size > 1:
+                    errors = errors - errors[0]
+            bands.append([_band(one) for one in errors + _scattered(beside, points[:, width:])])
+        return np.array(bands)
 
     # Tables
 
@@ -499,20 +537,10 @@ def are_alike(one: Budget, other: Budget) -> bool:
     )
 
 
-def mean_square(source: Scatter) -> float:
-    """Mean square of a deviation along one direction [mm^2]; of a vector of any direction half of its own."""
-    mean, sigma = source.law.moments()
-    if source.kind == "pin":
-        return 0.125 * (mean * mean + sigma * sigma)
-    if source.kind == "gear":
-        return 0.5 * (mean * mean + sigma * sigma)
-    return sigma * sigma
-
-
 def contribution(source: Scatter, gain: Any) -> Contribution:
     """A source with its gain; what has a direction is 0 on average."""
     mean = source.law.moments()[0] if source.coordinates == 1 else 0.0
-    return Contribution(source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)), mean)
+    return Contribution(source.key, np.asarray(gain), source.limit, source.sigma, mean)
 
 
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
@@ -527,81 +555,6 @@ _SAMPLES = 16_384
 _PLACES = 13
 
 
-def sampled_band(register: RegisterDesign) -> list[float]:
-    """What 99.73 % of the samples of the whole chain keep, to either side, for either torque sign [mm]."""
-    _ = register.correlations, register.input_angles  # refused before anything is sampled
-    model = type(register.spec)
-    text = str(register.spec.model_dump_json(exclude_unset=True, exclude_none=True, by_alias=True))
-    share = partial(_share_of, type(register), model, text) if is_shared() else partial(sampled_share, register)
-    found = np.mean(list(of_replications(share)), axis=0)
-    return [float(one.max()) for one in found]
-
-
-def sampled_share(register: RegisterDesign, number: int) -> Reals:
-    """The band at some places of the stretch by one replication; (2, places) array [mm]."""
-    section = register.spec.tolerance
-    count = rounded_up(section.samples or _SAMPLES)
-    chosen, own = register.sampled_places, register.own_errors
-    width = sum(one.coordinates for one in register.sources)
-    points = replication(width + len(own[0]), count, section.seed, number)
-    parts = _parts_of(register, together(points[:, :width], coordinate_root(section, register.sources)))
-    bands, errors = [], np.zeros(0)
-    for sign, beside in zip(SIGNS, own, strict=True):
-        if sign == SIGNS[0] or register.chain(chosen, sign) is not register.chain(chosen, SIGNS[0]):
-            errors = sampled_errors(register, chosen, sign, parts)
-            if chosen.size > 1:
-                errors = errors - errors[0]
-        bands.append([_band(one) for one in errors + _scattered(beside, points[:, width:])])
-    return np.array(bands)
-
-
-def sampled_errors(register: RegisterDesign, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
-    """Errors of machines as manufactured, the whole chain of each closed; (places, N) array [mm].
-
-    Parameters
-        input_angle : (places,) array [rad]
-        parts : errors of all machines by source; of pins and gears vectors
-    """
-    chain = register.chain(input_angle, torque_sign)
-    output = register.output(input_angle[:, None])
-    errors: list[Any] = []
-    for source in register.sources:
-        error = parts[source.key]
-        if source.coordinates == 2 and not register.moves.is_vector(source):
-            error = np.real(error)
-        errors += [(shift, error) for shift in register.shifts(source, chain.mechanism)]
-    return chain.output(lambda made: output(made, parts), errors, output)
-
-
-def own_errors(register: RegisterDesign, chosen: Reals) -> list[list[Contribution]]:
-    """What the machine adds to the sources of the file, for either torque sign, as it counts over the stretch."""
-    keys = {one.key for one in register.sources}
-    start = 0 if chosen.size > 1 else None
-    return [
-        [
-            replace(one, gain=counted(one, start))
-            for one in register.contributions(chosen, sign)
-            if one.source not in keys
-        ]
-        for sign in SIGNS
-    ]
-
-
-def _parts_of(register: RegisterDesign, points: Reals) -> dict[str, Any]:
-    """Errors of the parts in all samples, by source: sizes, and of pins and gears vectors."""
-    found: dict[str, Any] = {}
-    at = 0
-    for source in register.sources:
-        part = points[:, at : at + source.coordinates]
-        at += source.coordinates
-        size = source.law.deviations(part[:, 0])
-        if source.coordinates == 2:
-            half = 0.5 if source.kind == "pin" else 1.0
-            size = half * size * np.exp(2j * math.pi * part[:, 1])
-        found[source.key] = size
-    return found
-
-
 @lru_cache(maxsize=4)
 def _made(register: type[RegisterDesign], model: type[Any], text: str) -> RegisterDesign:
     return register(model.model_validate_json(text))
@@ -609,14 +562,7 @@ def _made(register: type[RegisterDesign], model: type[Any], text: str) -> Regist
 
 def _share_of(register: type[RegisterDesign], model: type[Any], text: str, number: int) -> Reals:
     made = _made(register, model, text)  # type: ignore[arg-type]  # mypy takes a class for unhashable
-    return sampled_share(made, number)
-
-
-def places(input_angles: Reals) -> Reals:
-    """Some of the angles of a stretch, its ends among them."""
-    count = input_angles.size
-    chosen: Reals = input_angles[np.linspace(0, count - 1, min(count, _PLACES)).astype(int)]
-    return chosen
+    return made.sampled_share(number)
 
 
 def _scattered(own: Sequence[Contribution], points: Reals) -> Any:

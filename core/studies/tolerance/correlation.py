@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.study.faults import Fault, WrongStudy
-from gearlink.core.studies.tolerance.sources import Scatter
+from gearlink.core.studies.tolerance.sources import Scatter, numbers_of
 from gearlink.core.studies.tolerance.spec import Tolerance
 
 _ROUNDING = 1e-12
@@ -23,11 +23,9 @@ def coordinate_root(section: Tolerance, sources: Sequence[Scatter]) -> Reals | N
     """
     if not section.correlated:
         return None
-    place, at = {}, 0
-    for one in sources:
-        place[one.key] = range(at, at + one.coordinates)
-        at += one.coordinates
-    matrix = np.eye(at)
+    columns = numbers_of(sources)
+    place = {one.key: range(own.start, own.stop) for one, own in zip(sources, columns, strict=True)}
+    matrix = np.eye(columns[-1].stop)
     for group in section.correlated:
         keys = [key for key in group.sources if key in place]
         for key, other in itertools.permutations(keys, 2):

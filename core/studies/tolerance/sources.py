@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec_paths import number_at, numbers_at, unit_at
+from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.ranges import row_of
 from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
@@ -102,6 +107,34 @@ class Scatter:
             return 0.5 * self.law.upper
         return max(abs(self.law.lower), abs(self.law.upper))
 
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of the deviation; of a pin and a gear that of one component of the vector."""
+        mean, sigma = self.law.moments()
+        if self.kind not in ("pin", "gear"):
+            return sigma
+        if self.entry.play == "floating":
+            return 0.25 * mean
+        half = 0.5 if self.kind == "pin" else 1.0
+        return half * math.sqrt(0.5 * (mean * mean + sigma * sigma))
+
+    def deviations(self, points: Reals) -> Reals | Points:
+        """Deviations of samples; of a pin and a gear vectors x + i y, those of a pin that touches its hole or floats.
+
+        Parameters
+            points : (N, coordinates) array - random numbers in (0, 1)
+        Returns
+            deviations : (N,) array
+        """
+        if self.coordinates == 1:
+            return self.law.deviations(points[:, 0])
+        if self.entry.play == "floating":
+            size = 0.5 * self.law.moments()[0] * np.sqrt(points[:, 0])
+        else:
+            half = 0.5 if self.kind == "pin" else 1.0
+            size = half * np.maximum(self.law.deviations(points[:, 0]), 0.0)
+        return np.asarray(size * np.exp(2j * math.pi * points[:, 1]))
+
     def within(self, half: float) -> Scatter:
         """The same size made to limits at one distance to either side, by the same process: law, C_p and C_pk."""
         widths = (self.law.upper - self.law.lower, 2.0 * half)
@@ -110,6 +143,18 @@ class Scatter:
             given["mode"] = (self.entry.mode - 0.5 * (self.law.lower + self.law.upper)) * widths[1] / widths[0]
         entry = self.entry.model_copy(update=given)
         return replace(self, entry=entry, law=_law(entry, -half, half, ("tolerance", "sources", self.key)))
+
+
+def numbers_of(sources: Sequence[Scatter]) -> list[slice]:
+    """Which random numbers of a sample each source takes."""
+    starts = itertools.accumulate((one.coordinates for one in sources), initial=0)
+    return [slice(start, end) for start, end in itertools.pairwise(starts)]
+
+
+def deviations_of(sources: Sequence[Scatter], points: Reals) -> dict[str, Reals | Points]:
+    """Deviations of samples by source, as `Scatter.deviations` has them; (N, coordinates of all) random numbers."""
+    rows = zip(sources, numbers_of(sources), strict=True)
+    return {one.key: one.deviations(points[:, columns]) for one, columns in rows}
 
 
 @dataclass(frozen=True, slots=True)

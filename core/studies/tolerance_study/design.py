@@ -27,7 +27,7 @@ from gearlink.core.studies.tolerance.correlation import groups, pairs, together
 from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import REPLICATIONS, Estimate, estimate, replication, rounded_up
-from gearlink.core.studies.tolerance.sources import Scatter
+from gearlink.core.studies.tolerance.sources import Scatter, numbers_of
 from gearlink.core.studies.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
 from gearlink.core.studies.tolerance_study.samples import (
     Course,
@@ -282,9 +282,9 @@ def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
         )
     drawn = replication(made.coordinates, REPLICATIONS * _DRAWS, made.section.seed, REPLICATIONS)
     points = together(drawn, made.correlation)
-    starts = list(itertools.accumulate((source.coordinates for source in made.sources), initial=0))
+    own = numbers_of(made.sources)
     columns = [
-        {g: one.law.deviations(points[:, starts[i]]) for g, one in row.items()}
+        {g: one.law.deviations(points[:, own[i].start]) for g, one in row.items()}
         for i, row in zip(places, by_grade, strict=True)
     ]
     return drawn_yield(columns, [_requirement(study, name, places, drawn) for name in asked], made.section.target_yield)
@@ -437,18 +437,8 @@ def _slope(middle: float, values: Reals, h: float) -> tuple[float, float]:
 
 
 def _of_source(source: Scatter, rows: list[tuple[float, float]]) -> Slope:
-    gain, sigma = tuple(row[0] for row in rows), component_sigma(source)
-    return Slope(gain, math.hypot(*gain) * sigma, math.hypot(*(row[1] for row in rows)) * sigma)
-
-
-def component_sigma(source: Scatter) -> float:
-    """Standard deviation of a source; of a pin that of one component of its offset."""
-    mean, sigma = source.law.moments()
-    if source.kind != "pin":
-        return sigma
-    if source.entry.play == "floating":
-        return 0.25 * mean
-    return 0.5 * math.sqrt(0.5 * (mean * mean + sigma * sigma))
+    gain = tuple(row[0] for row in rows)
+    return Slope(gain, math.hypot(*gain) * source.sigma, math.hypot(*(row[1] for row in rows)) * source.sigma)
 
 
 def linear_shares(
@@ -510,11 +500,8 @@ def _indices_of(made: Problem, number: int, names: Sequence[str]) -> Mapping[str
 
 def _columns(made: Problem) -> list[list[int]]:
     """Which random numbers are a source's, and those of the sources that scatter with it."""
-    own, at = [], 0
-    for source in made.sources:
-        own.append(range(at, at + source.coordinates))
-        at += source.coordinates
     group = groups(made.section, made.sources)
+    own = [range(one.start, one.stop) for one in numbers_of(made.sources)]
     return [[i for j, columns in enumerate(own) if group[j] == number for i in columns] for number in group]
 
 

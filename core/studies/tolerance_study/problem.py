@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -29,7 +28,7 @@ from gearlink.core.studies.explore.requirements import (
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.correlation import coordinate_root, together
 from gearlink.core.studies.tolerance.sampling import SCALAR_SAMPLES
-from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
+from gearlink.core.studies.tolerance.sources import Parts, Scatter, deviations_of, is_of_parts, scatters
 from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
 
 MOST_WITH_INDICES = 32
@@ -261,14 +260,8 @@ class Problem:
         Returns
             columns : (N,) arrays by source - as `gearlink.core.studies.tolerance_study.problem` wants them
         """
-        points = together(points, self.correlation)
-        columns: dict[str, Reals | Points] = {}
-        at = 0
-        for one in self.sources:
-            part = points[:, at : at + one.coordinates]
-            at += one.coordinates
-            columns[one.key] = _vector(one, part) if one.kind == "pin" else one.nominal + one.law.deviations(part[:, 0])
-        return columns
+        found = deviations_of(self.sources, together(points, self.correlation))
+        return {one.key: one.nominal + found[one.key] for one in self.sources}
 
     def offsets(self, shifts: Sequence[Mapping[str, complex]]) -> dict[str, Reals | Points]:
         """Sizes that differ from nominal by given amounts, an element each."""
@@ -278,16 +271,6 @@ class Problem:
             else np.array([one.nominal + np.real(shift.get(one.key, 0.0)) for shift in shifts])
             for one in self.sources
         }
-
-
-def _vector(source: Scatter, part: Reals) -> Points:
-    """Offset of a pin in its hole: on the circle of the clearance, or anywhere in it."""
-    if source.entry.play == "floating":
-        radius = 0.5 * source.law.moments()[0] * np.sqrt(part[:, 0])
-    else:
-        radius = 0.5 * np.maximum(source.law.deviations(part[:, 0]), 0.0)
-    offset: Points = radius * np.exp(2j * math.pi * part[:, 1])
-    return offset
 
 
 def _absent(values: Mapping[str, Any], at: Place) -> list[Fault]:

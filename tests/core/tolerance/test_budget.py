@@ -10,7 +10,6 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.studies.register import sampled_share
 from gearlink.core.studies.tolerance.budget import Contribution, budget, normal_band
 from gearlink.core.studies.tolerance.sampling import COMPUTED_BY
 
@@ -97,7 +96,7 @@ def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
         COMPUTED_BY.reset(token)
     ((_, _, text),) = sent
     assert json.loads(text) == json.loads(made.spec.model_dump_json(exclude_unset=True, by_alias=True))
-    here = np.mean([sampled_share(made, number) for number in range(2)], axis=0)
+    here = np.mean([made.sampled_share(number) for number in range(2)], axis=0)
     assert found == [float(one.max()) for one in here]
 
 
@@ -106,6 +105,17 @@ def test_a_measured_part_is_an_error_without_scatter() -> None:
     gain = {row.source: row.gain for row in made.budgets[0].rows}["links.crank"]
     frame = {row.source: row.sigma for row in made.budgets[0].rows}["links.frame"]
     assert made.band[0] == pytest.approx(0.01 * gain + 2.7821749705 * frame, rel=1e-9)
+
+
+def test_a_pin_that_floats_lies_anywhere_in_its_hole() -> None:
+    """Of a disc of radius r one coordinate scatters by r/2, of its edge by r/sqrt(2)."""
+    fit, at = {"clearance": [0.04, 0.04 + 1e-9]}, 100.0
+    one, other = (register({"pins.B": fit | {"play": play}}, at=at) for play in ("contact", "floating"))
+    gain = abs(one.contributions(one.input_angles, 1)[0].gain[0])
+    assert one.rss[0] == pytest.approx(gain * 0.02 / math.sqrt(2.0), rel=1e-6)
+    assert other.rss[0] == pytest.approx(gain * 0.01, rel=1e-6)
+    sampled = register({"pins.B": fit | {"play": "floating"}}, at=at, method="mc")
+    assert gain * 0.0195 < sampled.band[0] < gain * 0.02  # the share 0.27 % of a disc lies beyond 0.98 of its radius
 
 
 def test_twist_of_a_shaft_counts_in_band_and_samples_alike() -> None:
