@@ -69,23 +69,31 @@ def placed(path: str) -> Any:
     """A quantity whose value stands elsewhere on the design.
 
     Parameters
-        path : str - from the design on, "slider_crank.crank_length", "fastest.0.speed"; None on the way makes the
-            quantity None
+        path : str - from the design on, "slider_crank.crank_length", "fastest.0.speed"; "cams.*.max_radius" is a list
+            of those of each; None on the way makes the quantity, or that of one, None
     Returns
         quantity : property, to be annotated with the type of the value
     """
-
-    way = tuple(int(name) if name.isdecimal() else name for name in path.split("."))
+    whole, _, of_each = path.partition(".*.")
+    way, more = (_way(each) for each in (whole, of_each))
 
     def value(design: Any) -> Any:
-        found = design
-        for place in way:
-            if found is None:
-                return None
-            found = getattr(found, place) if isinstance(place, str) else found[place]
-        return found
+        found = _at(design, way)
+        return [_at(each, more) for each in found] if of_each and found is not None else found
 
     return property(value, doc=f"Stands at `{path}`.")
+
+
+def _way(path: str) -> tuple[str | int, ...]:
+    return tuple(int(name) if name.isdecimal() else name for name in path.split("."))
+
+
+def _at(found: Any, way: Sequence[str | int]) -> Any:
+    for place in way:
+        if found is None:
+            return None
+        found = getattr(found, place) if isinstance(place, str) else found[place]
+    return found
 
 
 _LISTED = 12

@@ -27,6 +27,7 @@ from gearlink.core.mechanism.motion import Course, Motion
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.numerics.roots_sweep import zeros
 from gearlink.core.studies.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
+from gearlink.core.studies.loads.names import RPM
 from gearlink.core.studies.movable import Errors, Movable
 from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted
 from gearlink.core.studies.tolerance.correlation import coordinate_root, of_sizes, together
@@ -590,9 +591,6 @@ def budget_check(
     return REGISTER_BUDGET.check(status, called, band, limit, "mm", shown=shown, aside=aside, at=at, fix=fix)
 
 
-_RPM = math.pi / 30.0
-
-
 def _turned(x: Course, y: Course, angle: float) -> Course:
     """A point along a direction, from its coordinates."""
     if angle == 0.0:
@@ -812,7 +810,7 @@ class MotionRegister(RegisterDesign):
             if section.friction or section.load or section.stiffness is not None:
                 raise NoSolution("the torque of the output's inertia needs input_speed (1/min)", key="input_speed")
             return 1.0
-        inertia: float = section.output_inertia * (speed * _RPM) ** 2
+        inertia: float = section.output_inertia * (speed * RPM) ** 2
         return inertia
 
     def output_torque(self, input_angle: Reals) -> Reals:

@@ -176,15 +176,8 @@ class LinkedCams(RealSpeed, Design):
 
         return made(0), made(1)
 
-    @property
-    def max_pressure_angle(self) -> list[float]:
-        """Maximum pressure angle of both cams [rad]."""
-        return [cam.max_pressure_angle.value for cam in self.cams]
-
-    @property
-    def min_curvature_radius(self) -> list[float]:
-        """Minimum convex radius of both pitch curves [mm]."""
-        return [cam.min_curvature_radius.value for cam in self.cams]
+    max_pressure_angle: list[float] = placed("cams.*.max_pressure_angle.value")
+    min_curvature_radius: list[float] = placed("cams.*.min_curvature_radius.value")
 
     @property
     def max_radius(self) -> list[float]:

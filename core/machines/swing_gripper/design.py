@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -1062,12 +1061,6 @@ _OF_FINGERS = ("finger-release", "pressure-angle", "cam-undercut")
 _OF_FINGER_CAM = ("fingers", "release", "swing_sense")
 
 
-def _of_each_cam(path: str) -> Any:
-    """A quantity that stands on each cam, main and return, at a path."""
-    value = attrgetter(path)
-    return property(lambda design: tuple(map(value, design.cams.discs)), doc=f"`{path}` of each cam.")
-
-
 class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     """A swing gripper, from its design file to every quantity that is asked for."""
 
@@ -1212,12 +1205,12 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     handover_mismatch: float = placed("handover.mismatch")
     handover_center: complex = placed("handover.center")
     cam_center: complex = placed("cams.center")
-    max_pressure_angle: tuple[float, ...] = _of_each_cam("max_pressure_angle.value")
-    min_curvature_radius: tuple[float, ...] = _of_each_cam("min_curvature_radius.value")
-    max_pressure_angle_at: tuple[float, ...] = _of_each_cam("max_pressure_angle.place")
-    min_curvature_radius_at: tuple[float, ...] = _of_each_cam("min_curvature_radius.place")
-    max_radius: tuple[float, ...] = _of_each_cam("max_radius")
-    min_radius: tuple[float, ...] = _of_each_cam("min_radius")
+    max_pressure_angle: list[float] = placed("cams.discs.*.max_pressure_angle.value")
+    min_curvature_radius: list[float] = placed("cams.discs.*.min_curvature_radius.value")
+    max_pressure_angle_at: list[float] = placed("cams.discs.*.max_pressure_angle.place")
+    min_curvature_radius_at: list[float] = placed("cams.discs.*.min_curvature_radius.place")
+    max_radius: list[float] = placed("cams.discs.*.max_radius")
+    min_radius: list[float] = placed("cams.discs.*.min_radius")
     closing_torque: float = placed("closure.closing_torque")
     lift_off_speed: float | None = placed("closure.lift_off_speed")
     spring_torque: float = placed("closure.spring_torque")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
@@ -17,7 +18,8 @@ from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.studies.codes import CONTACT_LOSS, CONTACT_PRESSURE, LOAD_REVERSAL, PRELOAD, ROLLER_SKID
 from gearlink.core.studies.loads.checks import listed, load_reversal
-from gearlink.core.studies.loads.design import LoadsDesign, Wanted
+from gearlink.core.studies.loads.design import LoadsDesign, Wanted, at_extreme
+from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.extremes import Extreme
@@ -50,9 +52,6 @@ def pressure_check(what: str, found: float, allowed: float, at: str) -> Check:
     return CONTACT_PRESSURE.check(status, what, found, allowed, "N/mm^2", recommended=most, at=at, fix=fix)
 
 
-_RPM = 2.0 * math.pi / 60.0
-
-
 def contact_table(design: CamLoadsDesign, samples: int | None = None) -> Table:
     """Force, pressure, relative radius, roller speed and entrainment of each roller over the input angle."""
     degrees = turn_degrees(samples, design.turns)
@@ -66,7 +65,7 @@ def contact_table(design: CamLoadsDesign, samples: int | None = None) -> Table:
             f"{name}_force": (design.contact_force(name, phi), "N"),
             f"{name}_pressure": (none if line is None else line.pressure, "N/mm^2"),
             f"{name}_radius": (roller.relative_radius, "mm"),
-            f"{later}roller_speed": (design.roller_speed(name, phi) / _RPM, "1/min"),
+            f"{later}roller_speed": (design.roller_speed(name, phi) / RPM, "1/min"),
             f"{later}entrainment": (design.entrainment(name, phi), "mm/s"),
         }
     return Table.of("contact", columns)
@@ -239,15 +238,8 @@ class CamLoadsDesign(LoadsDesign):
         """Minimum and maximum force of each roller [N]."""
         return list(zip(self._each("contact_force", False), self._each("contact_force"), strict=True))
 
-    @property
-    def contact_force_max(self) -> list[float]:
-        """Maximum contact force of each roller [N]."""
-        return [high.value for _, high in self.force_extremes]
-
-    @property
-    def contact_force_min(self) -> list[float]:
-        """Minimum contact force of each roller [N]."""
-        return [low.value for low, _ in self.force_extremes]
+    contact_force_max: list[float] = placed("force_extremes.*.1.value")
+    contact_force_min: list[float] = placed("force_extremes.*.0.value")
 
     @cached_property
     def pressure_extremes(self) -> list[Extreme | None] | None:
@@ -255,14 +247,12 @@ class CamLoadsDesign(LoadsDesign):
         return self._each_pressed("hertz_pressure")
 
     @property
-    def hertz_pressure_max(self) -> list[float | None] | None:
-        """Maximum pressure of each roller and its cam [N/mm^2]."""
-        return _values(self.pressure_extremes)
+    def _deepest(self) -> list[Extreme | None] | None:
+        """Maximum depth of the maximum shear stress of each roller [mm]."""
+        return self._each_pressed("shear_depth")
 
-    @cached_property
-    def shear_depth(self) -> list[float | None] | None:
-        """Maximum depth of the maximum shear stress [mm]."""
-        return _values(self._each_pressed("shear_depth"))
+    hertz_pressure_max: list[float | None] | None = placed("pressure_extremes.*.value")
+    shear_depth: list[float | None] | None = placed("_deepest.*.value")
 
     def roller_speed(self, name: str, phi: Reals) -> Reals:
         """Speed of a roller that rolls [rad/s]."""
@@ -278,7 +268,7 @@ class CamLoadsDesign(LoadsDesign):
     @property
     def roller_speed_max(self) -> list[float]:
         """Maximum speed of each roller [1/min]."""
-        return [each.value / _RPM for each in self._each("roller_speed")]
+        return [each.value / RPM for each in self._each("roller_speed")]
 
     @property
     def roller_acceleration_max(self) -> list[float]:
@@ -322,15 +312,8 @@ class CamLoadsDesign(LoadsDesign):
             total = total + self.roller_on_cam(name, phi).cam_torque(self.contact_force(name, phi))
         return total
 
-    @cached_property
-    def cam_torque_max(self) -> float:
-        """Maximum torque on the cams, counter-clockwise [N m]."""
-        return self.extreme_of("cam_torque").value
-
-    @cached_property
-    def cam_torque_min(self) -> float:
-        """Minimum torque on the cams, counter-clockwise [N m]."""
-        return self.extreme_of("cam_torque", False).value
+    cam_torque_max: float = at_extreme("cam_torque")
+    cam_torque_min: float = at_extreme("cam_torque", False)
 
     @cached_property
     def cam_torque_rms(self) -> float:
@@ -434,7 +417,3 @@ class CamLoadsDesign(LoadsDesign):
 
     change_of_side: ClassVar[str] = "the follower changes cams"
     side_remedy: ClassVar[str] = "press both rollers on (loads.roller.preload)"
-
-
-def _values(found: list[Extreme | None] | None) -> list[float | None] | None:
-    return None if found is None else [None if each is None else each.value for each in found]

@@ -76,6 +76,21 @@ def loads_outline(
     return {"loads": Outline(names, (*checks.CHECKS, *more_checks, *VIBRATION_CHECKS), shown)}
 
 
+def at_extreme(course: str, greatest: bool = True) -> Any:
+    """A quantity that is the maximum or minimum value over the period of a `course`."""
+    return property(lambda design: design.extreme_of(course, greatest).value, doc=f"Extreme of `{course}`.")
+
+
+def _of_counterweight(link: str, of: Callable[[complex], float]) -> Any:
+    """Size [kg mm] of the mass moment of a link's counterweight, or its direction [rad]; None without one."""
+
+    def value(design: LoadsDesign) -> float | None:
+        moment = design.balance.get(link)
+        return None if moment is None else of(moment)
+
+    return property(value, doc=f"Of the counterweight of the {link}.")
+
+
 class LoadsDesign(Design):
     """The loads of a design file that has the section; a subclass per machine says how its links move.
 
@@ -436,15 +451,8 @@ class LoadsDesign(Design):
 
         return sign_changes(self.machine.torque, self.machine, self.torque_size)
 
-    @property
-    def reflected_inertia_max(self) -> float:
-        """Maximum reflected inertia [kg m^2]."""
-        return self.extreme_of("inertia").value
-
-    @property
-    def reflected_inertia_min(self) -> float:
-        """Minimum reflected inertia [kg m^2]."""
-        return self.extreme_of("inertia", False).value
+    reflected_inertia_max: float = at_extreme("inertia")
+    reflected_inertia_min: float = at_extreme("inertia", False)
 
     @property
     def reflected_inertia_mean(self) -> float:
@@ -472,41 +480,22 @@ class LoadsDesign(Design):
 
     flywheel_inertia: float | None = placed("running.needed")
 
-    def _of_run(self, value: Callable[[], float]) -> float | None:
-        """A result of the run, where the file has a flywheel or a motor and the machine does not stop."""
-        if self.section.flywheel is None and self.section.motor is None:
-            return None
-        return None if self.running.stops else value()
-
     @property
-    def speed_min(self) -> float | None:
-        """Minimum speed of the input [1/min]."""
-        return self._of_run(lambda: self.running.range[0])
+    def _run(self) -> Running | None:
+        """The run where the file has a flywheel or a motor and the machine does not stop."""
+        given = self.section.flywheel is not None or self.section.motor is not None
+        return self.running if given and not self.running.stops else None
 
-    @property
-    def speed_max(self) -> float | None:
-        """Maximum speed of the input [1/min]."""
-        return self._of_run(lambda: self.running.range[1])
-
-    @property
-    def speed_fluctuation(self) -> float | None:
-        """(maximum - minimum)/mean speed."""
-        return self._of_run(lambda: self.running.fluctuation)
-
+    speed_min: float | None = placed("_run.range.0")
+    speed_max: float | None = placed("_run.range.1")
+    speed_fluctuation: float | None = placed("_run.fluctuation")
     motor_torque_rms: float | None = placed("running.motor_rms")
     motor_torque_peak: float | None = placed("running.motor_peak")
 
     # Shaking force and moment
 
-    @cached_property
-    def shaking_force_max(self) -> float:
-        """Maximum shaking force [N]."""
-        return self.extreme_of("shaking_force").value
-
-    @cached_property
-    def shaking_moment_max(self) -> float:
-        """Maximum magnitude of the shaking moment about the input's pivot [N m]."""
-        return self.extreme_of("shaking_moment").value
+    shaking_force_max: float = at_extreme("shaking_force")
+    shaking_moment_max: float = at_extreme("shaking_moment")
 
     def shaking(self, phi: Reals) -> Any:
         """Force and moment of the masses on the frame."""
@@ -538,32 +527,14 @@ class LoadsDesign(Design):
 
         def force(phi: Reals) -> Reals:
             added = shaking(self.machine.at(phi), weights, self.speed)[0]
-            return np_abs(self.shaking(phi)[0] + added)
+            return np.asarray(np.abs(self.shaking(phi)[0] + added))
 
         return self.extreme(force).value
 
-    def _moment(self, name: str) -> complex | None:
-        return self.balance.get(name)
-
-    @property
-    def counterweight_crank(self) -> float | None:
-        """Mass moment of the crank's counterweight [kg mm]."""
-        return _size(self._moment("crank"))
-
-    @property
-    def counterweight_crank_direction(self) -> float | None:
-        """Its direction in the crank's coordinates [rad]."""
-        return _direction(self._moment("crank"))
-
-    @property
-    def counterweight_rocker(self) -> float | None:
-        """Mass moment of the rocker's counterweight [kg mm]."""
-        return _size(self._moment("rocker"))
-
-    @property
-    def counterweight_rocker_direction(self) -> float | None:
-        """Its direction in the rocker's coordinates [rad]."""
-        return _direction(self._moment("rocker"))
+    counterweight_crank: float | None = _of_counterweight("crank", abs)
+    counterweight_crank_direction: float | None = _of_counterweight("crank", cmath.phase)
+    counterweight_rocker: float | None = _of_counterweight("rocker", abs)
+    counterweight_rocker_direction: float | None = _of_counterweight("rocker", cmath.phase)
 
     @cached_property
     def balanced_force_max(self) -> float | None:
@@ -613,8 +584,6 @@ class LoadsDesign(Design):
         except SelfLocking:
             return float("inf"), None
         return found.value, found.place % self.machine.period
-
-    # Frame and joints
 
     # What the checks ask
 
@@ -819,20 +788,6 @@ def _both_torques(machine: Machine, phi: Reals) -> tuple[Reals, Reals, Reals]:
         power = power + losses(found, machine.friction, machine.speed) / machine.speed
     parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)
     return found.torque, power, parts
-
-
-def np_abs(values: Any) -> Reals:
-    """Magnitudes of plane vectors."""
-    found: Reals = abs(values)
-    return found
-
-
-def _size(moment: complex | None) -> float | None:
-    return None if moment is None else abs(moment)
-
-
-def _direction(moment: complex | None) -> float | None:
-    return None if moment is None else cmath.phase(moment)
 
 
 _HOLDS = 0.9

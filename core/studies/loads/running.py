@@ -23,13 +23,11 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.studies.loads.flywheel import Function
+from gearlink.core.studies.loads.names import RPM
 from gearlink.core.studies.loads.panels import Panels, fewest_samples, to_integral
 
 if TYPE_CHECKING:
     from gearlink.core.studies.loads.design import LoadsDesign
-
-
-RPM = 2.0 * math.pi / 60.0
 
 
 class Running:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.report import Table
+from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -92,8 +93,6 @@ def frame(design: LoadsDesign, samples: int | None = None) -> Table:
 
 def speed(design: LoadsDesign, samples: int | None = None) -> Table:
     """Speed of the input, time and kinetic energy over the input angle."""
-    from gearlink.core.studies.loads.running import RPM
-
     phi, columns = design.rows(samples)
     running = design.running
     found = running.speed(phi)
