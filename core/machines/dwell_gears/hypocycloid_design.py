@@ -37,10 +37,12 @@ from gearlink.core.mechanism.rates import Turn, fixed, standing, steady
 from gearlink.core.mechanism.vectors import least_transmission
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
+from gearlink.core.numerics.roots_sweep import zeros_of
 from gearlink.core.parts.gears.codes import DWELL_QUALITY
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import transmission_check
+from gearlink.core.parts.linkages.standstills import Turning
 from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
@@ -49,7 +51,7 @@ if TYPE_CHECKING:
     from gearlink.core.studies.movable import Movable
 
 
-_STEPS_PER_ARC = 48
+_STEPS_PER_ARC, _ROWS = 48, 720
 _TURN = 2.0 * math.pi
 
 
@@ -128,31 +130,6 @@ class HypocycloidSlider:
         (x_1, y_1), y = self._rates(t), self.point(t).imag
         return x_1 - y * y_1 / math.sqrt(self.rod**2 - y * y)
 
-    def acceleration(self, t: float) -> float:
-        """Slider's acceleration outwards at constant carrier speed, d2s/dt2 [mm/rad^2]."""
-        (_, y_1), (x_2, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
-        w = math.sqrt(self.rod**2 - y * y)
-        return x_2 - (y_1 * y_1 + y * y_2) / w - (y * y_1) ** 2 / w**3
-
-    def jerk(self, t: float) -> float:
-        """Slider's jerk outwards at constant carrier speed, d3s/dt3 [mm/rad^3].
-
-        w w''' + 3 w' w'' = -(3 y' y'' + y y'''),   w = sqrt(L^2 - y^2)
-        """
-        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
-        (_, y_1), (_, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
-        x_3 = scale * (math.sin(t) - self.ratio * k * k * math.sin(k * t))
-        y_3 = -scale * (self.ratio * k * k * math.cos(k * t) + math.cos(t))
-        w = math.sqrt(self.rod**2 - y * y)
-        w_1 = -y * y_1 / w
-        w_2 = -(y_1 * y_1 + y * y_2 + w_1 * w_1) / w
-        return x_3 - (3.0 * (y_1 * y_2 + w_1 * w_2) + y * y_3) / w
-
-    def _second_rates(self, t: float) -> tuple[float, float]:
-        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
-        bent = self.ratio * k
-        return scale * (bent * math.cos(k * t) - math.cos(t)), -scale * (bent * math.sin(k * t) + math.sin(t))
-
     def _rates(self, t: float) -> tuple[float, float]:
         k = self.cusps - 1
         scale = self.planet_radius * k
@@ -174,35 +151,6 @@ class HypocycloidSlider:
         count = _STEPS_PER_ARC * self.cusps
         grid = [math.pi * (i + 0.5) / count for i in range(count)]
         return [(t, self.deviation(t)) for t in (0.0, *roots_on(self.speed, grid), math.pi)]
-
-    @cached_property
-    def fastest(self) -> tuple[float, float]:
-        """Maximum speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
-        return self._greatest(self.speed, self._zeros_of(self.acceleration))
-
-    @cached_property
-    def hardest(self) -> tuple[float, float]:
-        """Maximum acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
-        return self._greatest(self.acceleration, self._without_jerk)
-
-    @cached_property
-    def hardest_inwards(self) -> tuple[float, float]:
-        """Maximum acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
-        value, place = self._greatest(lambda t: -self.acceleration(t), self._without_jerk)
-        return -value, place
-
-    @cached_property
-    def _without_jerk(self) -> list[float]:
-        return self._zeros_of(self.jerk)
-
-    def _zeros_of(self, f: Callable[[float], float]) -> list[float]:
-        count = 2 * _STEPS_PER_ARC * self.cusps
-        return roots_on(f, [_TURN * (i + 0.5) / count for i in range(count)])
-
-    @staticmethod
-    def _greatest(f: Callable[[float], float], places: list[float]) -> tuple[float, float]:
-        value, place = max((f(t), -t) for t in (0.0, math.pi, *places))
-        return value, -place
 
     @property
     def stroke(self) -> float:
@@ -875,23 +823,38 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
         with at_key("dwell.tolerance"):
             return self.slider.dwell_angle(self.spec.dwell.tolerance)
 
-    velocity_max: float = placed("slider.fastest.0")
-    velocity_max_at: float = placed("slider.fastest.1")
+    @cached_property
+    def _turnings(self) -> list[list[Turning]]:
+        """Turnings of the slider's velocity [mm/rad] and acceleration outwards over half a turn, and its ends."""
+        way, rows = outwards(self), math.ceil(_STEPS_PER_ARC * self.cusps / _ROWS)
 
-    @property
-    def velocity_min(self) -> float:
-        """Maximum velocity inwards, as a negative number [mm/rad]: the motion is its own mirror image."""
-        return -self.slider.fastest[0]
+        def rate(order: int) -> Callable[[Reals], Reals]:
+            return lambda t: way.rates(self.moving, t, 3)[order]
 
-    @property
-    def velocity_min_at(self) -> float:
-        """Carrier angle of it [rad]."""
-        return 2.0 * math.pi - self.slider.fastest[1]
+        places = [[0.0, *inside, math.pi] for inside in zeros_of([rate(2), rate(3)], math.pi, rows)]
+        return [list(map(Turning, at, rate(order)(np.array(at)).tolist())) for order, at in enumerate(places, 1)]
 
-    acceleration_max: float = placed("slider.hardest.0")
-    acceleration_max_at: float = placed("slider.hardest.1")
-    acceleration_min: float = placed("slider.hardest_inwards.0")
-    acceleration_min_at: float = placed("slider.hardest_inwards.1")
+    @cached_property
+    def fastest(self) -> tuple[Turning, Turning]:
+        """Maximum velocity outwards, and inwards: the motion is its own mirror image."""
+        place, value = max(self._turnings[0], key=lambda each: abs(each.value))
+        forth = Turning(place, value) if value > 0.0 else Turning(_TURN - place, -value)
+        return forth, Turning(_TURN - forth.place, -forth.value)
+
+    @cached_property
+    def hardest(self) -> tuple[Turning, Turning]:
+        """Maximum and minimum acceleration outwards, at the first of both places."""
+        every = self._turnings[1]
+        return max(every, key=lambda each: each.value), min(every, key=lambda each: each.value)
+
+    velocity_max: float = placed("fastest.0.value")
+    velocity_max_at: float = placed("fastest.0.place")
+    velocity_min: float = placed("fastest.1.value")
+    velocity_min_at: float = placed("fastest.1.place")
+    acceleration_max: float = placed("hardest.0.value")
+    acceleration_max_at: float = placed("hardest.0.place")
+    acceleration_min: float = placed("hardest.1.value")
+    acceleration_min_at: float = placed("hardest.1.place")
     dwell_time: float | None = per_time("_dwell_reached", -1)
 
     @property

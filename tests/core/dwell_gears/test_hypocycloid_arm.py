@@ -6,6 +6,7 @@ Tolerances: windows by a sliding window over fine rows are good to two rows; dif
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,11 @@ import pytest
 from factory import design
 from hypothesis import given
 from hypothesis import strategies as st
+from oracles.hypocycloid import acceleration, jerk
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidSlider, SlottedArm
+from gearlink.core.numerics.roots import roots_on
 
 GIVEN: dict[str, Any] = {
     "kind": "hypocycloid-dwell",
@@ -102,12 +105,31 @@ def test_slider_of_any_point(ratio: float) -> None:
     phi = np.linspace(0.05, 6.2, 23)
     slider: HypocycloidSlider = found.slider
     way = found.moving.outputs[0].course.rates(found.moving, phi, 3)
-    for k, exact in enumerate((lambda t: -slider.deviation(t), slider.speed, slider.acceleration, slider.jerk)):
+    rates = (lambda t: -slider.deviation(t), slider.speed, partial(acceleration, slider), partial(jerk, slider))
+    for k, exact in enumerate(rates):
         assert way[k] == pytest.approx([exact(t) for t in phi], abs=1e-9)
     assert slider.widest_offset == pytest.approx(
         max(abs(slider.point(t).imag) for t in np.linspace(0.0, 6.3, 20_001)), rel=1e-6
     )
     assert (found.osculating_length is None) is (ratio != 1.0)
+
+
+@pytest.mark.parametrize(("ring", "ratio"), [(75, 1.0), (125, 1.4)])
+def test_extremes_of_the_slider_by_hand(ring: int, ratio: float) -> None:
+    """Velocity and acceleration by derivatives that were derived by hand, with their zeros over the whole turn."""
+    gears = {"module": 1.6, "planet": 25, "ring": ring}
+    found = design("hypocycloid_slider", gears=gears, point={"ratio": ratio}, rod={"length": 260.0})
+    slider, grid = found.slider, np.linspace(-1.0, 2.0 * math.pi - 1.0, 4001).tolist()
+    for name, rate, slope in (
+        ("velocity", slider.speed, partial(acceleration, slider)),
+        ("acceleration", partial(acceleration, slider), partial(jerk, slider)),
+    ):
+        values = {rate(t): t % (2.0 * math.pi) for t in roots_on(slope, grid)}
+        for side, value in (("max", max(values)), ("min", min(values))):
+            assert getattr(found, f"{name}_{side}") == pytest.approx(value, rel=1e-13)
+            place, mirrored = getattr(found, f"{name}_{side}_at"), 2.0 * math.pi - values[value]
+            alike = (values[value], mirrored) if name == "acceleration" else (values[value],)
+            assert min(abs(place - each) for each in alike) < 1e-12
 
 
 def test_refusals() -> None:
