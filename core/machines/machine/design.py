@@ -14,11 +14,11 @@ from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Ta
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
+from gearlink.core.machines.machine.relations import VALUES, Moment, Relation, Value, Within, common_member
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 
 if TYPE_CHECKING:
     from gearlink.core.base.remedies.ways import Way
-    from gearlink.core.machines.machine.relations import Moment, Relation
     from gearlink.core.machines.machine.series import Known, Members, OverMachine
     from gearlink.core.machines.machine.shaft import Chain
     from gearlink.core.machines.machine.spec import MachineSpec
@@ -240,8 +240,6 @@ class Machine(OfMembers):
 
     def _ties(self, free: Collection[str]) -> list[Tie]:
         """The relations between events as ways between members, some of them with phases that are sought."""
-        from gearlink.core.machines.machine.relations import Value
-
         found = []
         for i, relation in enumerate(self.spec.relations):
             if not isinstance(relation, Value):
@@ -250,7 +248,6 @@ class Machine(OfMembers):
         return found
 
     def _tie(self, relation: Any, free: Collection[str]) -> Tie:
-        from gearlink.core.machines.machine.relations import Within
         from gearlink.core.machines.machine.timing import Tie
 
         if isinstance(relation, Within):
@@ -318,8 +315,6 @@ class Machine(OfMembers):
     @property
     def least_margin(self) -> float | None:
         """Minimum margin of the relations between events [rad]; None where there are none."""
-        from gearlink.core.machines.machine.relations import Value
-
         found = [margin for relation, margin in self.margins if not isinstance(relation, Value)]
         return math.radians(min(found)) if found else None
 
@@ -494,14 +489,10 @@ class Machine(OfMembers):
 
     def status_of(self, relation: Relation, margin: float) -> Status:
         """What comes of a relation: a value is judged at 0."""
-        from gearlink.core.machines.machine.relations import Value
-
         return ("pass" if margin >= 0.0 else "fail") if isinstance(relation, Value) else self.status(margin)
 
     def check_timing_relation(self) -> Iterator[Check]:
         """GL530: each relation."""
-        from gearlink.core.machines.machine.relations import Value, Within, common_member
-
         for relation, margin in self.margins:
             of_value = isinstance(relation, Value)
             limit = 0.0 if of_value else self.spec.limits.timing_margin
@@ -523,7 +514,6 @@ class Machine(OfMembers):
             yield codes.TIMING.check(status, what, margin, limit, unit, fix=fix, note=note)
 
     def _unit_of_value(self, relation: Any) -> str:
-        from gearlink.core.machines.machine.relations import VALUES
         from gearlink.core.mechanism.courses import unit_of
 
         order, unit = VALUES.index(relation.quantity), self.timing.place(relation.of).course.unit

@@ -84,7 +84,7 @@ class Felt:
     @kept
     def backwards(self) -> Loaded:
         """The same turning the other way, in which resistances act the other way."""
-        return replace(self.machine, speed=-self.machine.speed, kept={}, kept_few={}, kept_sums={})
+        return replace(self.machine, speed=-self.machine.speed)
 
     @property
     def period(self) -> float | None:
@@ -193,10 +193,6 @@ class Together(Loaded):
     def _turning_back(self) -> list[float]:
         """None besides those of the members."""
         return []
-
-    def anew(self) -> Loaded:
-        """The same with nothing kept."""
-        return replace(self, kept={}, kept_few={}, kept_sums={})
 
 
 class _Section:
@@ -369,26 +365,14 @@ class MachineLoads(OfMembers, LoadsDesign):
         if speed is not None:
             yield Limited(name, "lift-off", speed * 30.0 / math.pi)
 
-    def _limit(self, field: str) -> Any:
-        return getattr(self.limits[0], field) if self.limits else None
-
     @property
-    def machine_speed_limit(self) -> float | None:
-        """Minimum of those speeds [1/min]."""
-        found: float | None = self._limit("speed")
-        return found
+    def _least(self) -> Limited | None:
+        """The minimum of those speeds."""
+        return self.limits[0] if self.limits else None
 
-    @property
-    def speed_limit_member(self) -> str | None:
-        """The member that it is of."""
-        found: str | None = self._limit("member")
-        return found
-
-    @property
-    def speed_limit_check(self) -> str | None:
-        """The check by which it is."""
-        found: str | None = self._limit("check")
-        return found
+    machine_speed_limit: float | None = placed("_least.speed")
+    speed_limit_member: str | None = placed("_least.member")
+    speed_limit_check: str | None = placed("_least.check")
 
     # The main shaft
 
@@ -425,31 +409,17 @@ class MachineLoads(OfMembers, LoadsDesign):
         return Swing(chain, torques, self.turns, self.speed)
 
     @cached_property
-    def _most_wound(self) -> tuple[int, int]:
-        """Disc and row at which the shaft is wound up most."""
-        disc, row = np.unravel_index(np.argmax(np.abs(self.swing.twist)), self.swing.twist.shape)
-        return int(disc), int(row)
+    def _most_wound(self) -> tuple[float, float, str] | None:
+        """Maximum wind-up against the first disc [rad], a magnitude, machine angle of its row [rad], and disc."""
+        if self.spec.shaft is None:
+            return None
+        twist = np.abs(self.swing.twist)
+        disc, row = np.unravel_index(np.argmax(twist), twist.shape)
+        return float(twist[disc, row]), TURN * int(row) / _SAMPLES, self.discs[disc]
 
-    def _of_shaft(self, value: Any) -> Any:
-        return None if self.spec.shaft is None else value()
-
-    @property
-    def wind_up_max(self) -> float | None:
-        """Maximum wind-up of a disc against the first [rad], a magnitude."""
-        found: float | None = self._of_shaft(lambda: abs(float(self.swing.twist[self._most_wound])))
-        return found
-
-    @property
-    def wind_up_max_at(self) -> float | None:
-        """Machine angle of it [rad], of the rows."""
-        found: float | None = self._of_shaft(lambda: TURN * self._most_wound[1] / _SAMPLES)
-        return found
-
-    @property
-    def wind_up_disc(self) -> str | None:
-        """The disc of it."""
-        found: str | None = self._of_shaft(lambda: self.discs[self._most_wound[0]])
-        return found
+    wind_up_max: float | None = placed("_most_wound.0")
+    wind_up_max_at: float | None = placed("_most_wound.1")
+    wind_up_disc: str | None = placed("_most_wound.2")
 
     # Tables
 

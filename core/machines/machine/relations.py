@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
-from typing import Literal, NamedTuple, TypeAlias
+from typing import ClassVar, Literal, NamedTuple, TypeAlias
 
 from gearlink.core.base.errors import GearlinkError, named
 
@@ -61,41 +61,36 @@ Moment: TypeAlias = "Named | float"
 
 
 @dataclass(frozen=True)
-class Before:
-    """One event comes before another by an angle [deg]."""
-
+class _Pair:
     text: str
     one: Moment
     two: Moment
     by: float
+    of_runs: ClassVar[bool] = False
 
     def with_by(self, by: float) -> str:
         """The line with another angle [deg]."""
-        return _with_by(self.text, by)
+        head = self.text.partition(" by ")[0]
+        return f"{head} by {by:.12g}" if by else head
 
     def require_names(self, members: Sequence[str], events: Sequence[str]) -> None:
         """Refuse names that the machine does not have."""
         for moment in (self.one, self.two):
-            _require(moment, members, events, runs=False)
+            _require(moment, members, events, runs=self.of_runs)
 
 
 @dataclass(frozen=True)
-class Within:
+class Before(_Pair):
+    """One event comes before another by an angle [deg]."""
+
+
+@dataclass(frozen=True)
+class Within(_Pair):
     """One run lies within another, an angle [deg] from either end."""
 
-    text: str
     one: Named
     two: Named
-    by: float
-
-    def with_by(self, by: float) -> str:
-        """The line with another angle [deg]."""
-        return _with_by(self.text, by)
-
-    def require_names(self, members: Sequence[str], events: Sequence[str]) -> None:
-        """Refuse names that the machine does not have."""
-        for run in (self.one, self.two):
-            _require(run, members, events, runs=True)
+    of_runs = True
 
 
 @dataclass(frozen=True)
@@ -116,11 +111,6 @@ class Value:
 
 
 Relation: TypeAlias = "Before | Within | Value"
-
-
-def _with_by(text: str, by: float) -> str:
-    head = text.partition(" by ")[0]
-    return f"{head} by {by:.12g}" if by else head
 
 
 def common_member(relation: Relation) -> str:

@@ -177,7 +177,7 @@ class PlanarLoads(LoadsDesign):
             return found
         first, last = self._first, self.design.course.end
         sources: Any = _Shifted(found.sources, first)
-        return replace(found, sources=sources, stroke=last - first, kept={}, kept_few={}, kept_sums={})
+        return replace(found, sources=sources, stroke=last - first)
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles of a table's rows from where the pass begins [rad], and the first column."""

@@ -80,9 +80,9 @@ class Machine:
     joints_of_period: bool = False
     stroke: float = 0.0
     more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
-    kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
-    kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
-    kept_sums: dict[str, dict[tuple[str, bytes], Any]] = field(default_factory=dict, repr=False)
+    kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, init=False, repr=False)
+    kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, init=False, repr=False)
+    kept_sums: dict[str, dict[tuple[str, bytes], Any]] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def period(self) -> float:
@@ -134,7 +134,7 @@ class Machine:
     def by_blocks(self, rows: int, block: int = _BLOCK) -> Iterator[tuple[slice, Machine]]:
         """Slices of very many rows, and for each the machine with nothing kept, so that it ends with its block."""
         for start in range(0, rows, block):
-            made = replace(self, motion=self.motion.anew(), kept={}, kept_few={}, kept_sums={})
+            made = replace(self, motion=self.motion.anew())
             keep(made, **kept(self, "locking", "breaks"))
             yield slice(start, start + block), made
 
@@ -218,7 +218,7 @@ class Machine:
     def rubbing(self, share: float) -> Machine:
         """The machine with a share of its friction."""
         assert self.friction is not None, "needed only where there is friction"
-        return replace(self, friction=self.friction.scaled(share), kept={}, kept_few={}, kept_sums={})
+        return replace(self, friction=self.friction.scaled(share))
 
     @property
     def locks(self) -> bool:

@@ -216,7 +216,7 @@ def test_of_many_rows_the_links_are_held_once_and_once_more_for_the_block_in_han
 
     phi = np.linspace(0.0, 6.0, 4 * 4096 + 5)
     assert machine.locking[0] < 1.0
-    held = replace(machine, motion=Motion(counted), kept={}, kept_few={})
+    held = replace(machine, motion=Motion(counted))
     vars(held)["locking"] = machine.locking
     found = held.reactions(phi)
     assert (len(made), most) == (6, 2)
