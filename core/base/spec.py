@@ -39,6 +39,17 @@ def unit(name: str, **bounds: Any) -> Any:
     return Field(json_schema_extra={"unit": name}, **bounds)
 
 
+def refused(message: str, key: str = "", code: str = "GL111") -> PydanticCustomError:
+    """What is wrong with values that contradict each other, for a validator to raise.
+
+    Parameters
+        message : str - what is wrong; after a line break how to fix it
+        key : str - where, below the section; "" the section itself
+        code : str - of the finding
+    """
+    return PydanticCustomError(code, "{message}", {"message": message, "key": key})
+
+
 class Entries:
     """Annotates a list of fixed length: what each of its entries is, and a list to show for an example.
 
@@ -75,14 +86,13 @@ MOST_NAME = 200
 
 def _fit_to_print(name: str) -> str:
     if len(name) > MOST_NAME:
-        raise PydanticCustomError("GL108", f"name has {len(name)} characters (limit <= {MOST_NAME})\nshorten it")
+        raise refused(f"name has {len(name)} characters (limit <= {MOST_NAME})\nshorten it", code="GL108")
     if name.isprintable():
         return name
     import unicodedata
 
     if wrong := next((each for each in name if unicodedata.category(each) in ("Cc", "Cs") and each not in "\t\n"), ""):
-        message = f"name holds the control character U+{ord(wrong):04X}\nremove it"
-        raise PydanticCustomError("GL108", message)
+        raise refused(f"name holds the control character U+{ord(wrong):04X}\nremove it", code="GL108")
     return name
 
 
@@ -222,17 +232,13 @@ class DrawingLimits(Spec):
 def require_stroke_or_crank(stroke: float | None, crank: float | None) -> None:
     """Refuse a slider-crank without a size, and one with two."""
     if stroke is not None and crank is not None:
-        message = "stroke and crank exclude each other\nomit stroke or crank"
-        raise PydanticCustomError("GL111", message, {"key": "crank"})
+        raise refused("stroke and crank exclude each other\nomit stroke or crank", "crank")
     if stroke is None and crank is None:
-        raise PydanticCustomError("GL106", "give stroke, or crank instead", {"key": "stroke"})
+        raise refused("give stroke, or crank instead", "stroke", "GL106")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
     """Refuse a slide line that the connecting rod cannot reach."""
     if abs(offset) >= rod:
-        raise PydanticCustomError(
-            "GL111",
-            "offset {offset} mm is not below the rod's {rod} mm\nlengthen the rod or bring the slide line nearer",
-            {"key": key, "offset": f"{offset:g}", "rod": f"{rod:g}"},
-        )
+        message = f"offset {offset:g} mm is not below the rod's {rod:g} mm"
+        raise refused(f"{message}\nlengthen the rod or bring the slide line nearer", key)

@@ -7,13 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.errors import in_section
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.spec import DesignSpec, Length, Speed, unit
+from gearlink.core.base.spec import DesignSpec, Length, Speed, refused, unit
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws
 from gearlink.core.parts.cams.spec import MotionLaw
 
@@ -66,7 +65,7 @@ class MotionLawSpec(DesignSpec):
 
 
 def _refused(key: str, message: str) -> Any:
-    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
+    return refused(message, key)
 
 
 _QUANTITIES = (

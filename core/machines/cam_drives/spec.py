@@ -6,7 +6,6 @@ from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
@@ -23,6 +22,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     Teeth,
+    refused,
     unit,
 )
 from gearlink.core.parts.cams.output_motion import OutputLaw
@@ -125,8 +125,8 @@ class Harmonics(Spec):
         for key in ("x", "y"):
             for place, (n, *_) in enumerate(getattr(self, key)):
                 if n < 1 or n != int(n) or n > 1000:
-                    message = "the number of a harmonic is a whole one from 1 to 1000, not {n}"
-                    raise PydanticCustomError("GL108", message, {"key": f"{key}[{place}][0]", "n": f"{n:g}"})
+                    message = f"the number of a harmonic is a whole one from 1 to 1000, not {n:g}"
+                    raise refused(message, f"{key}[{place}][0]", "GL108")
         return self
 
 
@@ -143,15 +143,12 @@ class LinkedPath(Spec):
     def _one(self) -> LinkedPath:
         if (self.harmonics is None) == (self.points is None):
             if self.points is None:
-                raise PydanticCustomError("GL106", "give harmonics, or points instead", {"key": "harmonics"})
-            raise PydanticCustomError(
-                "GL111", "harmonics and points exclude each other\nomit harmonics or points", {"key": "points"}
-            )
+                raise refused("give harmonics, or points instead", "harmonics", "GL106")
+            raise refused("harmonics and points exclude each other\nomit harmonics or points", "points")
         rows = self.points or [[0.0, 0.0, 0.0], [360.0, 0.0, 0.0]]
         ascending = all(before[0] < after[0] for before, after in pairwise(rows))
         if not ascending or rows[0][0] != 0.0 or rows[-1][0] != 360.0 or rows[0][1:] != rows[-1][1:]:
-            message = "points ascend from input angle 0 to 360 and end where they start"
-            raise PydanticCustomError("GL111", message, {"key": "points"})
+            raise refused("points ascend from input angle 0 to 360 and end where they start", "points")
         return self
 
 

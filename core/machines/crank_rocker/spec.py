@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
@@ -18,6 +17,7 @@ from gearlink.core.base.spec import (
     LoadLimits,
     SignedLength,
     Spec,
+    refused,
     unit,
 )
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
@@ -55,12 +55,11 @@ class Swing(Spec):
     @model_validator(mode="after")
     def _lengths(self) -> Swing:
         if not self.given:
-            message = "give one of crank, coupler, rocker and frame, or crank and frame"
-            raise PydanticCustomError("GL106", message, {"key": "frame"})
+            raise refused("give one of crank, coupler, rocker and frame, or crank and frame", "frame", "GL106")
         if len(self.given) > 1 and self.given != ("crank", "frame"):
             message = "one length gives the design with the best transmission angle, crank and frame give another: "
             key = next(name for name in self.given if name in ("coupler", "rocker"))
-            raise PydanticCustomError("GL111", message + "omit {key}", {"key": key})
+            raise refused(f"{message}omit {key}", key)
         return self
 
 
@@ -102,15 +101,12 @@ class Function(Spec):
         needed, more = ("name", "x", "input_swing", "output_swing"), ("exponent", "input_start", "output_start")
         if self.pairs is not None:
             if wrong := next((key for key in (*needed, *more) if getattr(self, key) is not None), ""):
-                message = "{wrong} together with pairs, which are the function\nomit {wrong}"
-                raise PydanticCustomError("GL111", message, {"key": wrong, "wrong": wrong})
+                raise refused(f"{wrong} together with pairs, which are the function\nomit {wrong}", wrong)
             return self
         if missing := next((key for key in needed if getattr(self, key) is None), ""):
             if missing == "name":
-                raise PydanticCustomError(
-                    "GL106", "give pairs, or name, x, input_swing, output_swing", {"key": "pairs"}
-                )
-            raise PydanticCustomError("GL106", "a function needs {missing}", {"key": missing, "missing": missing})
+                raise refused("give pairs, or name, x, input_swing, output_swing", "pairs", "GL106")
+            raise refused(f"a function needs {missing}", missing, "GL106")
         require_function(self.name, self.exponent, self.x, self.output_swing)
         return self
 
@@ -137,8 +133,7 @@ class CrankRockerSpec(DrivenSpec):
     @model_validator(mode="after")
     def _range_goes_up(self) -> CrankRockerSpec:
         if self.range is not None and self.range[1] <= self.range[0]:
-            message = "the range ends before it starts\ngive a greater end"
-            raise PydanticCustomError("GL111", message, {"key": "range"})
+            raise refused("the range ends before it starts\ngive a greater end", "range")
         return self
 
     def syntheses(self) -> tuple[str, ...]:

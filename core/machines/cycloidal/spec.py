@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.report import safely_below
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, SignedLength, Spec, unit
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, SignedLength, Spec, refused, unit
 
 Count = Annotated[int, unit("1", ge=3, le=1000)]
 Friction = Annotated[float, unit("1", ge=0, lt=1)]
@@ -86,23 +85,22 @@ class CycloidalReducerSpec(DrivenSpec):
     def _no_loops(self) -> CycloidalReducerSpec:
         most = self.pin_circle_radius / self.pins
         if self.eccentricity >= most:
+            limit = safely_below(most)
             message = (
-                "the lobes have loops: eccentricity {given} mm (limit < {most} mm, pin_circle_radius/pins)\n"
-                "set eccentricity below {most} mm"
+                f"the lobes have loops: eccentricity {self.eccentricity:g} mm (limit < {limit} mm, "
+                f"pin_circle_radius/pins)\nset eccentricity below {limit} mm"
             )
-            words = {"key": "eccentricity", "given": f"{self.eccentricity:g}", "most": safely_below(most)}
-            raise PydanticCustomError("GL111", message, words)
+            raise refused(message, "eccentricity")
         if self.pin_radius >= (most := self.pin_circle_radius - self.eccentricity):
+            limit = safely_below(most)
             message = (
-                "no disc is left: pin_radius {given} mm (limit < {most} mm, pin_circle_radius - eccentricity)\n"
-                "set pin_radius below {most} mm"
+                f"no disc is left: pin_radius {self.pin_radius:g} mm (limit < {limit} mm, "
+                f"pin_circle_radius - eccentricity)\nset pin_radius below {limit} mm"
             )
-            words = {"key": "pin_radius", "given": f"{self.pin_radius:g}", "most": safely_below(most)}
-            raise PydanticCustomError("GL111", message, words)
+            raise refused(message, "pin_radius")
         if self.friction is not None and self.friction.bearing > 0.0 and self.bearing_radius is None:
             message = "friction of the bearing acts at its radius\ngive bearing_radius (mm)"
-            raise PydanticCustomError("GL106", message, {"key": "bearing_radius"})
+            raise refused(message, "bearing_radius", "GL106")
         if self.friction is not None and self.output_pins is None:
-            message = "the efficiency needs output_pins: {count, circle_radius, radius}"
-            raise PydanticCustomError("GL106", "{message}", {"key": "output_pins", "message": message})
+            raise refused("the efficiency needs output_pins: {count, circle_radius, radius}", "output_pins", "GL106")
         return self

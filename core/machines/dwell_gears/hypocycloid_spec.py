@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 
@@ -42,11 +41,9 @@ class Rod(Spec):
     @model_validator(mode="after")
     def _one(self) -> Rod:
         if self.length is None and self.rule is None:
-            raise PydanticCustomError("GL106", "give length or rule", {"key": "rule"})
+            raise refused("give length or rule", "rule", "GL106")
         if self.length is not None and self.rule is not None:
-            raise PydanticCustomError(
-                "GL111", "length and rule exclude each other\nomit length or rule", {"key": "rule"}
-            )
+            raise refused("length and rule exclude each other\nomit length or rule", "rule")
         return self
 
 
@@ -107,24 +104,21 @@ class HypocycloidDwellSpec(DrivenSpec):
     @model_validator(mode="after")
     def _rod_or_target(self) -> HypocycloidDwellSpec:
         if not self.point.ratio > 0.0:
-            message = "point.ratio: {ratio} (limit > 0)\nset point.ratio above 0"
-            raise PydanticCustomError("GL108", message, {"key": "point.ratio", "ratio": f"{self.point.ratio:g}"})
+            message = f"point.ratio: {self.point.ratio:g} (limit > 0)\nset point.ratio above 0"
+            raise refused(message, "point.ratio", "GL108")
         if self.is_arm:
             for key in ("rod", "target"):
                 if getattr(self, key) is not None:
-                    message = "{key} goes with output: slider\nomit it"
-                    raise PydanticCustomError("GL111", message, {"key": key})
+                    raise refused(f"{key} goes with output: slider\nomit it", key)
             return self
         if self.point.ratio != 1.0 and (self.target is not None or self.rod is None or self.rod.rule is not None):
             message = "rules and targets are those of a point on the pitch circle\ngive rod.length, or point.ratio 1"
-            raise PydanticCustomError("GL111", message, {"key": "point.ratio"})
+            raise refused(message, "point.ratio")
         if self.rod is None and self.target is None:
-            raise PydanticCustomError("GL106", "give rod, or target from which it is found", {"key": "rod"})
+            raise refused("give rod, or target from which it is found", "rod", "GL106")
         if self.rod is not None and self.target is not None:
-            raise PydanticCustomError(
-                "GL111", "rod and target exclude each other\nomit rod to have it found", {"key": "rod"}
-            )
+            raise refused("rod and target exclude each other\nomit rod to have it found", "rod")
         wants_tolerance = self.target is not None and self.target.quality == "widest-dwell"
         if wants_tolerance and self.dwell.tolerance is None:
-            raise PydanticCustomError("GL106", "widest-dwell needs dwell.tolerance", {"key": "dwell.tolerance"})
+            raise refused("widest-dwell needs dwell.tolerance", "dwell.tolerance", "GL106")
         return self

@@ -5,9 +5,19 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
+from gearlink.core.base.spec import (
+    Angle,
+    Assembly,
+    Deferred,
+    DrivenSpec,
+    Length,
+    PressureAngle,
+    Spec,
+    Teeth,
+    refused,
+    unit,
+)
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 from gearlink.core.parts.linkages.spec_sections import FourLinks, PivotShafts
@@ -62,11 +72,10 @@ class WantedTimes(Spec):
         for name in ("motion", "dwell"):
             given = [key for key in (f"{name}_turns", f"{name}_time") if getattr(self, key) is not None]
             if not given:
-                message = "give {name}_turns, or {name}_time with input_speed"
-                raise PydanticCustomError("GL106", message, {"key": f"{name}_turns", "name": name})
+                raise refused(f"give {name}_turns, or {name}_time with input_speed", f"{name}_turns", "GL106")
             if len(given) > 1:
-                message = "{name}_turns and {name}_time exclude each other\nomit {name}_turns or {name}_time"
-                raise PydanticCustomError("GL111", message, {"key": given[1], "name": name})
+                message = f"{name}_turns and {name}_time exclude each other\nomit {name}_turns or {name}_time"
+                raise refused(message, given[1])
         return self
 
 
@@ -101,17 +110,16 @@ class MutilatedGearDwellSpec(DrivenSpec):
         if self.target is None:
             missing = [key for key, value in values.items() if value is None]
             if missing:
-                message = "the key {missing} is missing; or give the section target: motion_turns, dwell_turns"
-                raise PydanticCustomError("GL106", message, {"key": missing[0], "missing": missing[0]})
+                message = f"the key {missing[0]} is missing; or give the section target: motion_turns, dwell_turns"
+                raise refused(message, missing[0], "GL106")
             return self
         given = [key for key in ("reduction", "gears.full_teeth", "gears.group_teeth") if values[key] is not None]
         if given:
-            message = "{given} follows from the times that target requires\nomit it"
-            raise PydanticCustomError("GL111", message, {"key": given[0], "given": given[0]})
+            raise refused(f"{given[0]} follows from the times that target requires\nomit it", given[0])
         timed = self.target.motion_time is not None or self.target.dwell_time is not None
         if timed and self.input_speed is None:
             message = "a time needs the input's speed\ngive input_speed, or turns instead of times"
-            raise PydanticCustomError("GL106", message, {"key": "input_speed"})
+            raise refused(message, "input_speed", "GL106")
         return self
 
     def wanted_turns(self) -> tuple[float, float]:
@@ -128,7 +136,5 @@ class MutilatedGearDwellSpec(DrivenSpec):
     @model_validator(mode="after")
     def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
         if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
-            raise PydanticCustomError(
-                "GL111", "D_radius goes with the four-bar\ngive links, or omit it", {"key": "shafts.D_radius"}
-            )
+            raise refused("D_radius goes with the four-bar\ngive links, or omit it", "shafts.D_radius")
         return self

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     Deferred,
@@ -16,6 +15,7 @@ from gearlink.core.base.spec import (
     LoadLimits,
     TolerancedSpec,
     also,
+    refused,
     unit,
 )
 from gearlink.core.parts.gears.keys.pair import PairKeys
@@ -77,14 +77,14 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         require_teeth(self.teeth)
         if self.center_distance is None and self.profile_shift is None:
             message = "either center_distance or profile_shift is needed\ngive profile_shift: [0, 0] for standard gears"
-            raise PydanticCustomError("GL106", "{message}", {"key": "center_distance", "message": message})
+            raise refused(message, "center_distance", "GL106")
         exclude_each_other(self, "tip_shortening", "tip_diameter")
         for place, spanned in enumerate(self.span_teeth or ()):
             z = self.teeth[place]
             if isinstance(z, int) and spanned > abs(z):
-                message = "a gear of {z} teeth has no span over {k}\nset {key} to at most {z}"
                 key = f"span_teeth[{place}]"
-                raise PydanticCustomError("GL111", message, {"key": key, "z": abs(z), "k": spanned})
+                message = f"a gear of {abs(z)} teeth has no span over {spanned}\nset {key} to at most {abs(z)}"
+                raise refused(message, key)
         return self
 
     @model_validator(mode="after")
@@ -93,22 +93,18 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         internal = isinstance(second, int) and second < 0
         self._fits_a_rack()
         if self.cutter is not None and not internal:
-            message = "a pinion cutter goes with a ring (negative teeth)\nomit it, or give tool"
-            raise PydanticCustomError("GL111", message, {"key": "cutter"})
+            raise refused("a pinion cutter goes with a ring (negative teeth)\nomit it, or give tool", "cutter")
         if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
-            message = "a cutter of {cutter} teeth does not go into a ring of {ring}\nset cutter.teeth below {ring}"
-            raise PydanticCustomError(
-                "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -second}
-            )
+            message = f"a cutter of {self.cutter.teeth} teeth does not go into a ring of {-second}"
+            raise refused(f"{message}\nset cutter.teeth below {-second}", "cutter.teeth")
         self._fits_its_system(internal)
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
-            message = "spur gears have no hand of helix\nomit it, or give helix_angle"
-            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+            raise refused("spur gears have no hand of helix\nomit it, or give helix_angle", "helix_hand")
         if (self.helix_hand[0] == self.helix_hand[1]) != internal:
             message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
-            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+            raise refused(message, "helix_hand")
         return self
 
     def _fits_its_system(self, internal: bool) -> None:
@@ -119,7 +115,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         message = (
             "system: planet-ring is that of a gear and its ring (negative teeth), sun-planet of two external gears"
         )
-        raise PydanticCustomError("GL111", message, {"key": "rating.system"})
+        raise refused(message, "rating.system")
 
     @property
     def rack(self) -> bool:
@@ -130,27 +126,24 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         """Refuse what a rack cannot have."""
         if not self.rack:
             if self.rack_teeth is not None:
-                message = "rack_teeth goes with teeth: [z, rack]\nomit it"
-                raise PydanticCustomError("GL111", message, {"key": "rack_teeth"})
+                raise refused("rack_teeth goes with teeth: [z, rack]\nomit it", "rack_teeth")
             return
         if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
             message = "a rack has no shift\ngive profile_shift: [x1, 0], or center_distance to its datum line"
             key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
-            raise PydanticCustomError("GL111", message, {"key": key})
+            raise refused(message, key)
         if self.shift_split != "equal":
             message = "a rack takes no share of the shift\nomit shift_split; center_distance alone gives x1"
-            raise PydanticCustomError("GL111", message, {"key": "shift_split"})
+            raise refused(message, "shift_split")
         for key in ("loads", "tip_diameter", "rating"):
             if getattr(self, key) is not None:
-                message = "{key} is not known of a gear on a rack\nomit it"
-                raise PydanticCustomError("GL111", message, {"key": key})
+                raise refused(f"{key} is not known of a gear on a rack\nomit it", key)
 
 
 def exclude_each_other(spec: Any, first: str, second: str) -> None:
     """Refuse a file that gives both of two keys."""
     if getattr(spec, first) is not None and getattr(spec, second) is not None:
-        message = f"{first} and {second} exclude each other\nomit {first} or {second}"
-        raise PydanticCustomError("GL111", message, {"key": second})
+        raise refused(f"{first} and {second} exclude each other\nomit {first} or {second}", second)
 
 
 def require_teeth(teeth: list[Any]) -> None:
@@ -158,16 +151,17 @@ def require_teeth(teeth: list[Any]) -> None:
     first, second = teeth
     if first == "rack":
         message = "teeth[0] must be a number: gear 1 is external\ngive the rack as gear 2: teeth: [z, rack]"
-        raise PydanticCustomError("GL108", message, {"key": "teeth[0]"})
+        raise refused(message, "teeth[0]", "GL108")
     for place, z in enumerate((first, second)):
         if z == 0 or (place == 0 and z < 0):
-            message, help_ = "{key} must be at least 1, not {value}", "allowed: from 1 to 10000"
+            key = f"teeth[{place}]"
+            message, help_ = f"{key} must be at least 1, not {z}", "allowed: from 1 to 10000"
             if z < 0:
                 help_ = "a ring is gear 2: teeth: [21, -67]"
             if place == 1:
-                message = "{key} must be 1 or more, -1 or less for a ring, or rack, not {value}"
+                message = f"{key} must be 1 or more, -1 or less for a ring, or rack, not {z}"
                 help_ = "allowed: from 1 to 10000, from -10000 to -1, rack"
-            raise PydanticCustomError("GL108", message, {"key": f"teeth[{place}]", "value": z, "help": help_})
+            raise refused(f"{message}\n{help_}", key, "GL108")
     if second != "rack" and second < 0 and -second <= first:
-        message = "a ring of {ring} teeth does not take a gear of {first}\nset teeth[1] below -{first}"
-        raise PydanticCustomError("GL111", message, {"key": "teeth[1]", "ring": -second, "first": first})
+        message = f"a ring of {-second} teeth does not take a gear of {first}\nset teeth[1] below -{first}"
+        raise refused(message, "teeth[1]")

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.report import safely_below
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec, unit
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec, refused, unit
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance
 
@@ -81,25 +80,21 @@ class GenevaDriveSpec(DrivenSpec):
         sign = 1.0 if self.type == "external" else -1.0
         step = 180.0 - sign * 360.0 / self.slots
         if self.pins * step > 360.0 + 1e-9:
-            message = "a step takes {step} deg of the crank: at most {most} pins fit in a revolution\n"
-            message += "set pins to at most {most}"
-            words = {"key": "pins", "step": short(step), "most": str(int((360.0 + 1e-9) // step))}
-            raise PydanticCustomError("GL111", message, words)
+            pins = int((360.0 + 1e-9) // step)
+            message = f"a step takes {short(step)} deg of the crank: at most {pins} pins fit in a revolution"
+            raise refused(f"{message}\nset pins to at most {pins}", "pins")
         if self.pin_radius >= (crank := self._crank(sign)):
-            message = "the pin reaches over the axis of the crank: {pin} mm (limit < {crank} mm)\n"
-            message += "set pin_radius below {crank} mm"
-            words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": safely_below(crank)}
-            raise PydanticCustomError("GL111", message, words)
+            limit = safely_below(crank)
+            message = f"the pin reaches over the axis of the crank: {self.pin_radius:g} mm (limit < {limit} mm)"
+            raise refused(f"{message}\nset pin_radius below {limit} mm", "pin_radius")
         if self.slot_clearance >= (most := 2.0 * self._nearest(sign)):
             message = (
-                "slot_clearance: {given} mm (limit < {most} mm, with which a slot turns freely about its pin)\n"
-                "reduce slot_clearance"
+                f"slot_clearance: {unlike(self.slot_clearance, most)} mm (limit < {safely_below(most)} mm, with which "
+                "a slot turns freely about its pin)\nreduce slot_clearance"
             )
-            words = {"key": "slot_clearance", "given": unlike(self.slot_clearance, most), "most": safely_below(most)}
-            raise PydanticCustomError("GL111", message, words)
+            raise refused(message, "slot_clearance")
         if self.locking_clearance and self.locking_radius is None:
-            message = "locking_clearance is that of the locking disc\ngive locking_radius"
-            raise PydanticCustomError("GL111", message, {"key": "locking_clearance"})
+            raise refused("locking_clearance is that of the locking disc\ngive locking_radius", "locking_clearance")
         return self
 
     def _crank(self, _sign: float) -> float:

@@ -8,7 +8,6 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec import (
@@ -21,6 +20,7 @@ from gearlink.core.base.spec import (
     Spec,
     Speed,
     TolerancedSpec,
+    refused,
     unit,
 )
 from gearlink.core.base.spec_paths import put
@@ -41,14 +41,9 @@ Turns = Annotated[float, unit("1", ge=-1e6, le=1e6)]
 MachineAngle = Annotated[float, unit("deg", ge=-36_000, le=36_000)]
 
 
-def _refuse(code: str, key: str, message: str) -> PydanticCustomError:
-    return PydanticCustomError(code, "{message}", {"message": message, "key": key})
-
-
 def _require_name(name: str, key: str) -> None:
     if not _NAME.fullmatch(name):
-        message = f"{named(name)} is no name: letters, digits and _, a letter first"
-        raise _refuse("GL108", key, message)
+        raise refused(f"{named(name)} is no name: letters, digits and _, a letter first", key, "GL108")
 
 
 def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
@@ -79,18 +74,18 @@ def _made(design: Any) -> Any:
     if not isinstance(design, dict):
         if isinstance(design, DesignSpec):
             return design
-        raise _refuse("GL107", "", "a design is a section: {kind: disc-cam, ...}")
+        raise refused("a design is a section: {kind: disc-cam, ...}", code="GL107")
     name = design.get("kind")
     moving = {each: kind for each, kind in KINDS.items() if kind.motion}
     if not isinstance(name, str) or name not in moving:
-        raise _refuse("GL109", "kind", f"no kind of member {named(str(name))}: the kinds are {', '.join(moving)}")
+        raise refused(f"no kind of member {named(str(name))}: the kinds are {', '.join(moving)}", "kind", "GL109")
     try:
         return _spec_of(name, json.dumps(design))
     except ValidationError as error:
         code, key, message = _first_wrong(error)
-        raise _refuse(code, key, message) from None
+        raise refused(message, key, code) from None
     except NoSolution as error:
-        raise _refuse(error.code, error.key, error.message) from None
+        raise refused(error.message, error.key, error.code) from None
 
 
 class Member(Spec):
@@ -114,17 +109,17 @@ class Member(Spec):
     @classmethod
     def _not_both(cls, data: Any) -> Any:
         if isinstance(data, dict) and data.get("of") is not None and data.get("design") is not None:
-            raise _refuse("GL111", "design", "give `of` or `design`, exactly one")
+            raise refused("give `of` or `design`, exactly one", "design")
         return data
 
     @model_validator(mode="after")
     def _one_design(self) -> Member:
         if self.of is None and self.design is None:
-            raise _refuse("GL106", "of", "give `of` or `design`, exactly one")
+            raise refused("give `of` or `design`, exactly one", "of", "GL106")
         if self.ratio == 0.0:
-            raise _refuse("GL108", "ratio", "with ratio 0 the member does not move\ngive another one")
+            raise refused("with ratio 0 the member does not move\ngive another one", "ratio", "GL108")
         if self.phase == "free" and self.input is not None:
-            raise _refuse("GL111", "phase", "a member with input moves with its driver\ngive a number for its phase")
+            raise refused("a member with input moves with its driver\ngive a number for its phase", "phase")
         return self
 
     @property
@@ -197,21 +192,20 @@ class MainShaft(Spec):
         count = len(self.inertias)
         if len(self.stiffnesses) != count - 1:
             springs = amount(count - 1, "stiffness", "stiffnesses")
-            message = f"{count} discs have {springs} between them, not {len(self.stiffnesses)}"
-            raise _refuse("GL111", "stiffnesses", message)
+            raise refused(f"{count} discs have {springs} between them, not {len(self.stiffnesses)}", "stiffnesses")
         for name in ("members", "ratios"):
             given = getattr(self, name)
             if given is not None and len(given) != count:
                 free = "; a disc without a mechanism takes any name, such as motor" if name == "members" else ""
                 message = f"{name}: {amount(len(given), 'entry', 'entries')} for {count} discs\ngive one for each{free}"
-                raise _refuse("GL111", name, message)
+                raise refused(message, name)
         if self.ratios is not None and 0.0 in self.ratios:
-            raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 does not move")
+            raise refused("a disc with ratio 0 does not move", f"ratios[{self.ratios.index(0.0)}]", "GL108")
         names = [name for disc in self.acting for name in disc]
         if twice := [name for name in names if names.count(name) > 1]:
-            raise _refuse("GL111", "members", f"{named(twice[0])} is on two discs\nput it on one")
+            raise refused(f"{named(twice[0])} is on two discs\nput it on one", "members")
         if [] in self.acting:
-            raise _refuse("GL108", "members", "a disc without a name\ngive it one, such as motor")
+            raise refused("a disc without a name\ngive it one, such as motor", "members", "GL108")
         return self
 
     @property
@@ -260,7 +254,7 @@ class MachineServo(Spec):
     def _one(self) -> MachineServo:
         if (self.rows is None) == (self.tolerance is None):
             key = "rows" if self.rows is None else "tolerance"
-            raise _refuse("GL106" if self.rows is None else "GL111", key, "give rows, or tolerance instead")
+            raise refused("give rows, or tolerance instead", key, "GL106" if self.rows is None else "GL111")
         return self
 
 
@@ -311,11 +305,11 @@ class MachineSpec(TolerancedSpec):
             driver = member.input.partition(".")[0]
             if driver not in self.members:
                 message = f"no member {named(driver)}: there are {', '.join(self.members)}"
-                raise _refuse("GL109", f"members.{name}.input", message)
+                raise refused(message, f"members.{name}.input", "GL109")
         for name in self.members:
             if loop := self._circle(name):
                 message = f"{' <- '.join(loop)} drive each other in a circle\nlet one of them be driven by the shaft"
-                raise _refuse("GL111", f"members.{name}.input", message)
+                raise refused(message, f"members.{name}.input")
         return self
 
     def _circle(self, name: str) -> list[str]:
@@ -331,20 +325,20 @@ class MachineSpec(TolerancedSpec):
         for name, event in self.events.items():
             _require_name(name, f"events.{name}")
             if name in self.members:
-                raise _refuse("GL111", f"events.{name}", f"{name} is a member: call the event otherwise")
+                raise refused(f"{name} is a member: call the event otherwise", f"events.{name}")
             if event.of.partition(".")[0] not in self.members:
                 message = f"no member {named(event.of)}: there are {', '.join(self.members)}"
-                raise _refuse("GL109", f"events.{name}.of", message)
+                raise refused(message, f"events.{name}.of", "GL109")
         for i, text in enumerate(self.require):
             try:
                 parse(text).require_names(tuple(self.members), tuple(self.events))
             except NotARelation as error:
-                raise _refuse(error.code, f"require[{i}]", str(error)) from None
+                raise refused(str(error), f"require[{i}]", error.code) from None
         places = [(name, f"register.chain.{name}") for name in (self.register_.chain if self.register_ else ())]
         places += [] if self.servo is None else [(self.servo.member, "servo.member")]
         for name, key in places:
             if name not in self.members:
-                raise _refuse("GL109", key, f"no member {named(name)}: there are {', '.join(self.members)}")
+                raise refused(f"no member {named(name)}: there are {', '.join(self.members)}", key, "GL109")
         return self
 
     @property

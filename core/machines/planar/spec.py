@@ -6,7 +6,6 @@ import re
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
@@ -19,6 +18,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     TolerancedSpec,
+    refused,
     unit,
 )
 from gearlink.core.parts.cams.motion_spec import FollowerMotion, SteepAngle, require_closed
@@ -31,7 +31,7 @@ def _is_name(name: str) -> str:
     if re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         return name
     message = f"{name!r} is no name here: a name begins with a letter and holds letters, digits and _ alone"
-    raise PydanticCustomError("GL108", "{message}", {"message": message})
+    raise refused(message, code="GL108")
 
 
 Name = Annotated[str, AfterValidator(_is_name)]
@@ -95,37 +95,37 @@ class Teeth(Spec):
         of_rack = {"rack": self.rack, "pinion": self.pinion, "direction": self.direction, "side": self.side}
         if self.gears is not None:
             if wrong := next((key for key, value in of_rack.items() if value is not None), ""):
-                _refuse(wrong, f"{wrong} goes with rack and pinion\nomit it or gears")
+                raise refused(f"{wrong} goes with rack and pinion\nomit it or gears", wrong)
             if not isinstance(self.at, list) or not isinstance(self.teeth, list):
-                _refuse("at" if not isinstance(self.at, list) else "teeth", "two gears need a list of two, [.., ..]")
+                raise refused(
+                    "two gears need a list of two, [.., ..]", "at" if not isinstance(self.at, list) else "teeth"
+                )
             if isinstance(self.teeth, list):
                 _require_gears(self.teeth)
             return self
         missing = next((key for key, value in (*of_rack.items(), ("module", self.module)) if value is None), "")
         if missing:
             words = "give gears: [link, link], or rack, pinion, at, direction, side, teeth and module"
-            raise PydanticCustomError(
-                "GL106", "{message}", {"key": "rack", "message": f"{missing} is missing: {words}"}
-            )
+            raise refused(f"{missing} is missing: {words}", "rack", "GL106")
         if isinstance(self.at, list) or isinstance(self.teeth, list):
-            _refuse(
-                "at" if isinstance(self.at, list) else "teeth",
+            raise refused(
                 "a rack meets one pinion\ngive one value instead of a list",
+                "at" if isinstance(self.at, list) else "teeth",
             )
         if isinstance(self.teeth, int) and self.teeth < 1:
-            _refuse("teeth", "a pinion has 1 tooth or more")
+            raise refused("a pinion has 1 tooth or more", "teeth")
         if self.carrier is not None:
-            _refuse("carrier", "a rack needs no carrier: its slide holds it at its distance")
+            raise refused("a rack needs no carrier: its slide holds it at its distance", "carrier")
         return self
 
 
 def _require_gears(teeth: list[int]) -> None:
     if 0 in teeth:
-        _refuse(f"teeth[{teeth.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less\nwrite its teeth")
+        raise refused("a gear has 1 tooth or more, a ring -1 or less\nwrite its teeth", f"teeth[{teeth.index(0)}]")
     if max(teeth) < 0:
-        _refuse("teeth", "two rings cannot mesh\nmake one of them an external gear")
+        raise refused("two rings cannot mesh\nmake one of them an external gear", "teeth")
     if min(teeth) < 0 <= sum(teeth):
-        _refuse("teeth", "a ring gear needs more teeth than the gear in it\nchange one of the two")
+        raise refused("a ring gear needs more teeth than the gear in it\nchange one of the two", "teeth")
 
 
 class CamPair(Spec):
@@ -150,7 +150,7 @@ class CamPair(Spec):
         if (self.roller_radius is None) == (self.face is None):
             words = "give roller_radius or face"
             code = "GL106" if self.face is None else "GL111"
-            raise PydanticCustomError(code, "{message}", {"key": "roller_radius", "message": words})
+            raise refused(words, "roller_radius", code)
         require_closed(self.motion, 0.0)
         return self
 
@@ -168,7 +168,7 @@ class Drive(Spec):
     def _one(self) -> Drive:
         if (self.link is None) == (self.slide is None):
             words = "give link or slide" if self.link is None else "give either link or slide: one input drives"
-            raise PydanticCustomError("GL106" if self.link is None else "GL111", words, {"key": "slide"})
+            raise refused(words, "slide", "GL106" if self.link is None else "GL111")
         return self
 
     @property
@@ -186,7 +186,7 @@ class Range(Spec):
     @model_validator(mode="after")
     def _ascending(self) -> Range:
         if self.end <= self.start:
-            _refuse("end", "the range ends before it starts\ngive a greater end")
+            raise refused("the range ends before it starts\ngive a greater end", "end")
         return self
 
 
@@ -248,7 +248,7 @@ class PlanarSpec(TolerancedSpec):
         from gearlink.core.machines.planar.wiring import faults
 
         for code, key, message in faults(self):
-            raise PydanticCustomError(code, "{message}", {"key": key, "message": message})
+            raise refused(message, key, code)
         return self
 
     @property
@@ -279,7 +279,3 @@ class PlanarSpec(TolerancedSpec):
         """What is looked at under a name: of a link that slides on the frame and does not turn, its slide."""
         slide = self.slid.get(name, "")
         return slide if slide and self.slides[slide].on == FRAME else name
-
-
-def _refuse(key: str, message: str) -> None:
-    raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})

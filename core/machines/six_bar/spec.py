@@ -6,9 +6,8 @@ from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec
+from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, refused
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits, require_rim
 from gearlink.core.parts.linkages.spec_sections import InputRange
 
@@ -54,18 +53,22 @@ class SixTrain(Spec):
     @model_validator(mode="after")
     def _whole(self) -> SixTrain:
         if any((PINS.index(b) - PINS.index(a)) % 6 != 1 for a, b in pairwise(self.pins)):
-            _refuse("pins", "a train's pins follow each other in the order A B C D E F A\nwrite them so, as [F, A]")
+            raise refused(
+                "a train's pins follow each other in the order A B C D E F A\nwrite them so, as [F, A]", "pins"
+            )
         if len(self.gears) != len(self.pins):
-            _refuse("gears", f"give the teeth of a gear on each pin: {len(self.gears)} for {len(self.pins)} pins")
+            raise refused(f"give the teeth of a gear on each pin: {len(self.gears)} for {len(self.pins)} pins", "gears")
         if 0 in self.gears:
-            _refuse(f"gears[{self.gears.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less\nwrite its teeth")
+            raise refused(
+                "a gear has 1 tooth or more, a ring -1 or less\nwrite its teeth", f"gears[{self.gears.index(0)}]"
+            )
         for k, (one, other) in enumerate(pairwise(self.gears)):
             if one < 0 and other < 0:
-                _refuse(f"gears[{k + 1}]", "two rings cannot mesh\nmake one of them an external gear")
+                raise refused("two rings cannot mesh\nmake one of them an external gear", f"gears[{k + 1}]")
             if one + other >= 0 and min(one, other) < 0:
-                _refuse(f"gears[{k}]", "a ring gear needs more teeth than the gear in it\nchange one of the two")
+                raise refused("a ring gear needs more teeth than the gear in it\nchange one of the two", f"gears[{k}]")
         if sum(z < 0 for z in self.gears) > 1:
-            _refuse("gears", "a train takes one ring\nmake the others external gears")
+            raise refused("a train takes one ring\nmake the others external gears", "gears")
         require_rim(self.rim, -min(self.gears) if min(self.gears) < 0 else None, self.module)
         return self
 
@@ -81,10 +84,9 @@ class SixStart(Spec):
     @model_validator(mode="after")
     def _two(self) -> SixStart:
         if len(self.given) != 2:
-            raise PydanticCustomError(
-                "GL111",
+            raise refused(
                 "give the directions of two of coupler_1, coupler_2, coupler_3 and output; the loop closes the others",
-                {"key": next(iter(self.given), "coupler_1")},
+                next(iter(self.given), "coupler_1"),
             )
         return self
 
@@ -130,12 +132,8 @@ class GearedSixBarSpec(DrivenSpec):
     @model_validator(mode="after")
     def _swing(self) -> GearedSixBarSpec:
         if self.range is not None and self.range.end <= self.range.start:
-            _refuse("range.end", "the range ends before it starts\ngive a greater end")
+            raise refused("the range ends before it starts\ngive a greater end", "range.end")
         return self
-
-
-def _refuse(key: str, message: str) -> None:
-    raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})
 
 
 def gear_bodies(train: SixTrain, number: int) -> list[str]:

@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import in_section
 from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.spec import Teeth
+from gearlink.core.base.spec import Teeth, refused
 from gearlink.core.parts.gears.from_spec import rack_at
 from gearlink.core.parts.gears.keys.pair import PairKeys
 
@@ -39,7 +38,7 @@ class Racks(PairKeys):
     def _moves(self) -> Racks:
         if self.side == "same" and self.fixed == self.moving:
             message = "equal teeth on the same side leave the rack at rest\ngive other teeth, or side: opposite"
-            raise PydanticCustomError("GL111", message, {"key": "moving"})
+            raise refused(message, "moving")
         return self
 
 

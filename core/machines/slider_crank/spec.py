@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationInfo, model_validator
-from pydantic_core import PydanticCustomError, PydanticKnownError
+from pydantic_core import PydanticKnownError
 
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.spec import (
@@ -17,6 +17,7 @@ from gearlink.core.base.spec import (
     Length,
     LoadLimits,
     SignedLength,
+    refused,
     require_offset_below_rod,
     require_stroke_or_crank,
     unit,
@@ -66,14 +67,11 @@ class SliderCrankSpec(DrivenSpec):
         if self.quick_return_ratio is None:
             return self
         if self.stroke is None:
-            message = "quick_return_ratio goes with stroke\ngive it"
-            raise PydanticCustomError("GL106", message, {"key": "stroke"})
+            raise refused("quick_return_ratio goes with stroke\ngive it", "stroke", "GL106")
         if "offset" in self.model_fields_set:
-            message = "the offset is found for quick_return_ratio\nomit it"
-            raise PydanticCustomError("GL111", message, {"key": "offset"})
+            raise refused("the offset is found for quick_return_ratio\nomit it", "offset")
         if self.rod is not None and self.crank is not None:
-            message = "stroke and quick_return_ratio leave one of rod and crank free\nomit crank"
-            raise PydanticCustomError("GL111", message, {"key": "crank"})
+            raise refused("stroke and quick_return_ratio leave one of rod and crank free\nomit crank", "crank")
         return self
 
     @model_validator(mode="after")

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, LiteralString, NoReturn
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
@@ -20,6 +19,7 @@ from gearlink.core.base.spec import (
     Spec,
     TolerancedSpec,
     also,
+    refused,
     unit,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
@@ -27,10 +27,6 @@ from gearlink.core.parts.cams.spec import MotionLaw
 InertiaMoment = Annotated[float, unit("kg m^2", ge=0)]
 Phase = Annotated[float, unit("deg", gt=0, lt=360)]
 Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]")]
-
-
-def _refuse(key: str, message: LiteralString, **words: str) -> NoReturn:
-    raise PydanticCustomError("GL111", message, {"key": key, **words})
 
 
 class Cylinder(Spec):
@@ -88,19 +84,15 @@ class Phases(Spec):
         if self.balance is not None:
             self._require_sized(missing)
         elif len(missing) > 1:
-            raise _phases("at most one phase may be omitted", f"give all but one of {', '.join(missing)}")
+            raise refused(f"at most one phase may be omitted\ngive all but one of {', '.join(missing)}")
         if missing and total >= 360.0:
             left = "accelerate, decelerate and return" if self.balance is not None else missing[0]
             longest = max(given, key=lambda key: given[key])
-            raise _phases(
-                "the given phases add up to {total} deg; nothing is left for {left}",
-                f"shorten {longest}, so that they add up to less than 360 deg",
-                total=f"{total:g}",
-                left=left,
-            )
+            text = f"the given phases add up to {total:g} deg; nothing is left for {left}"
+            raise refused(f"{text}\nshorten {longest}, so that they add up to less than 360 deg")
         if not missing and abs(total - 360.0) > 1e-9:
-            text = "sum of the six phases: {total} deg (required 360 deg)"
-            raise _phases(text, self._help(given, 360.0 - total), total=f"{total:g}")
+            text = f"sum of the six phases: {total:g} deg (required 360 deg)"
+            raise refused(f"{text}\n{self._help(given, 360.0 - total)}")
         return self
 
     def _require_sized(self, missing: list[str]) -> None:
@@ -109,7 +101,7 @@ class Phases(Spec):
         lacking = [key for key in missing if key not in SIZED]
         if surplus or lacking:
             fix = f"leave out {', '.join(surplus)}" if surplus else f"give {', '.join(lacking)}"
-            raise _phases("balance sizes accelerate, decelerate and return, from the other three", fix)
+            raise refused(f"balance sizes accelerate, decelerate and return, from the other three\n{fix}")
 
     def _help(self, given: dict[str, float], change: float) -> str:
         """Which phase may take up the change [deg]: the last, behind which no other moves, or else the longest."""
@@ -143,10 +135,6 @@ class Phases(Spec):
 
 SIZED = ("accelerate", "decelerate", "return")
 """The phases that `balance` sizes."""
-
-
-def _phases(message: LiteralString, fix: str, **words: str) -> PydanticCustomError:
-    return PydanticCustomError("GL111", message, {"help": fix, **words})
 
 
 class Laws(Spec):
@@ -230,12 +218,12 @@ class ClosingSpring(Spec):
         missing = [key for key, value in needed.items() if value is None]
         given = [key for key in (*needed, "rate", "length") if getattr(self, key) is not None]
         if self.torque is not None and given:
-            text = "torque and {other} exclude each other\ngive the torque, or the levers that make it"
-            _refuse("torque", text, other=given[0])
+            text = f"torque and {given[0]} exclude each other\ngive the torque, or the levers that make it"
+            raise refused(text, "torque")
         if self.torque is None and missing:
-            _refuse("torque", "give torque, or arms, angle and preload; {missing} missing", missing=", ".join(missing))
+            raise refused(f"give torque, or arms, angle and preload; {', '.join(missing)} missing", "torque")
         if (self.rate is None) != (self.length is None):
-            _refuse("rate", "rate and length go together: the spring pulls with preload at that length")
+            raise refused("rate and length go together: the spring pulls with preload at that length", "rate")
         return self
 
 
@@ -284,8 +272,10 @@ class FingerSection(Spec):
     def _one_after_the_other(self) -> FingerSection:
         opened, closing = self.open.from_ + self.open.over, self.close.to - self.close.over
         if opened > closing:
-            text = "the fingers are open from {opened} deg and begin to close at {closing} deg\nlet them close later"
-            _refuse("close", text, opened=f"{opened:g}", closing=f"{closing:g}")
+            text = (
+                f"the fingers are open from {opened:g} deg and begin to close at {closing:g} deg\nlet them close later"
+            )
+            raise refused(text, "close")
         return self
 
 
@@ -351,22 +341,15 @@ class SwingGripperSpec(TolerancedSpec):
             return self
         start, end = lengths[0], lengths[0] + lengths[1]
         if not start <= self.handover <= end:
-            raise PydanticCustomError(
-                "GL108",
-                "the handover at {at} deg lies outside the constant-speed phase\nset it from {start} to {end} deg",
-                {"key": "handover", "at": f"{self.handover:g}", "start": f"{start:g}", "end": f"{end:g}"},
-            )
+            text = f"the handover at {self.handover:g} deg lies outside the constant-speed phase"
+            raise refused(f"{text}\nset it from {start:g} to {end:g} deg", "handover", "GL108")
         return self
 
     @model_validator(mode="after")
     def _stop_with_its_sections(self) -> SwingGripperSpec:
         missing = [key for key in ("cam", "spring", "inertia") if getattr(self, key) is None]
         if self.stop is not None and missing:
-            _refuse(
-                "stop",
-                "a stop needs the sections cam, spring and inertia: {missing} missing",
-                missing=", ".join(missing),
-            )
+            raise refused(f"a stop needs the sections cam, spring and inertia: {', '.join(missing)} missing", "stop")
         return self
 
     def commands(self) -> tuple[str, ...]:

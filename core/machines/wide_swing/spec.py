@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, LiteralString, NoReturn, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
@@ -23,14 +22,10 @@ from gearlink.core.base.spec import (
     Teeth,
     TolerancedSpec,
     also,
+    refused,
     unit,
 )
 from gearlink.core.parts.gears.keys.pair import PairKeys
-
-
-def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **words: str) -> NoReturn:
-    raise PydanticCustomError(code, message, {"key": key, **words})
-
 
 Phase: TypeAlias = Annotated[float, unit("deg", ge=0, lt=360)]
 Stroke: TypeAlias = Annotated[float, unit("deg", gt=0, lt=360)]
@@ -83,20 +78,19 @@ class Pneumatic(Spec):
     @classmethod
     def _no_rate(cls, data: Any) -> Any:
         if isinstance(data, dict) and "rate" in data:
-            _refuse("rate", "a cylinder has no rate\ngive its force, or type: spring")
+            raise refused("a cylinder has no rate\ngive its force, or type: spring", "rate")
         return data
 
     @model_validator(mode="after")
     def _one_size(self) -> Pneumatic:
         _refuse_reserve(self, "force")
         if self.bore is not None and self.pressure is not None:
-            _refuse("bore", "bore and pressure exclude each other\nomit bore or pressure: it is a result")
+            raise refused("bore and pressure exclude each other\nomit bore or pressure: it is a result", "bore")
         if self.bore is not None and self.bore <= self.rod_diameter:
-            size = f"{self.bore:g} mm"
-            words = "bore {size}: it must be above rod_diameter, {rod}\nraise bore, or reduce rod_diameter"
-            _refuse("bore", words, "GL108", size=size, rod=f"{self.rod_diameter:g} mm")
+            words = f"bore {self.bore:g} mm: it must be above rod_diameter, {self.rod_diameter:g} mm"
+            raise refused(f"{words}\nraise bore, or reduce rod_diameter", "bore", "GL108")
         if self.reservoir is not None and self.bore is None and self.pressure is None:
-            _refuse("reservoir", "a reservoir needs the size of the cylinder\ngive pressure or bore")
+            raise refused("a reservoir needs the size of the cylinder\ngive pressure or bore", "reservoir")
         return self
 
 
@@ -127,7 +121,7 @@ class SpringDevice(Spec):
     @classmethod
     def _no_force(cls, data: Any) -> Any:
         if isinstance(data, dict) and "force" in data:
-            _refuse("force", "a spring has no constant force\ngive its rate, or type: pneumatic")
+            raise refused("a spring has no constant force\ngive its rate, or type: pneumatic", "force")
         return data
 
     @field_validator("stretch_ratio")
@@ -136,20 +130,20 @@ class SpringDevice(Spec):
         free = info.data.get("free_length", ...)
         if value is None and free is None:
             words = "stretch_ratio: mounting stretch at mid-swing over the stroke; or free_length of a given spring"
-            _refuse("stretch_ratio", "the key 'stretch_ratio' is missing", "GL106", help=words)
+            raise refused(f"the key 'stretch_ratio' is missing\n{words}", "stretch_ratio", "GL106")
         return value
 
     @model_validator(mode="after")
     def _one_length(self) -> SpringDevice:
         _refuse_reserve(self, "rate")
         if self.free_length is not None and self.stretch_ratio is not None:
-            _refuse(
-                "free_length", "free_length and stretch_ratio exclude each other\nomit free_length or stretch_ratio"
+            raise refused(
+                "free_length and stretch_ratio exclude each other\nomit free_length or stretch_ratio", "free_length"
             )
         if self.closed_length is not None and self.stretch_capacity is not None:
-            _refuse(
-                "stretch_capacity",
+            raise refused(
                 "closed_length and stretch_capacity exclude each other\nomit closed_length or stretch_capacity",
+                "stretch_capacity",
             )
         return self
 
@@ -172,9 +166,7 @@ class GravityDevice(Spec):
 
 def _refuse_reserve(device: Pneumatic | SpringDevice | GravityDevice, given: str) -> None:
     if getattr(device, given) is not None and "reserve" in device.model_fields_set:
-        _refuse(
-            "reserve", "{given} and reserve exclude each other: the reserve of a given device is a result", given=given
-        )
+        raise refused(f"{given} and reserve exclude each other: the reserve of a given device is a result", "reserve")
 
 
 class SecondShaft(Spec):
@@ -230,29 +222,15 @@ class SwingCycle(Spec):
         missing, total = [key for key in self._by_key() if key not in given], math.fsum(given.values())
         if len(missing) > 1:
             words = "at most one angle of a cycle may be omitted"
-            raise PydanticCustomError("GL111", words, {"help": f"give all but one of {', '.join(missing)}"})
+            raise refused(f"{words}\ngive all but one of {', '.join(missing)}")
         if missing and total >= 360.0:
             longest = max(given, key=lambda key: given[key])
-            raise PydanticCustomError(
-                "GL111",
-                "the given angles add up to {total} deg; nothing is left for {left}",
-                {
-                    "total": f"{total:.13g}",
-                    "left": missing[0],
-                    "help": f"shorten {longest}, so that they add up to less than 360 deg",
-                },
-            )
+            words = f"the given angles add up to {total:.13g} deg; nothing is left for {missing[0]}"
+            raise refused(f"{words}\nshorten {longest}, so that they add up to less than 360 deg")
         if not missing and abs(total - 360.0) > 1e-9:
-            raise PydanticCustomError(
-                "GL108",
-                "{given}: {total} deg (required 360 deg, one revolution of the cam)",
-                {
-                    "key": "near_dwell",
-                    "given": "working, far_dwell, return and near_dwell",
-                    "total": f"{total:.13g}",
-                    "help": self._help(given, 360.0 - total),
-                },
-            )
+            required = "required 360 deg, one revolution of the cam"
+            words = f"working, far_dwell, return and near_dwell: {total:.13g} deg ({required})"
+            raise refused(f"{words}\n{self._help(given, 360.0 - total)}", "near_dwell", "GL108")
         return self
 
     @staticmethod
@@ -386,19 +364,15 @@ class WideSwingSpec(TolerancedSpec):
             words = (
                 "cycle_angle: cam angle of one stroke, run-up and run-out; or the section cycle of a whole revolution"
             )
-            _refuse("cycle_angle", "the key 'cycle_angle' is missing", "GL106", help=words)
+            raise refused(f"the key 'cycle_angle' is missing\n{words}", "cycle_angle", "GL106")
         return value
 
     @model_validator(mode="after")
     def _sections_agree(self) -> WideSwingSpec:
         if self.slider is None and self.inertia == 0.0:
-            _refuse(
-                "inertia",
-                "inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0",
-                "GL108",
-            )
+            raise refused("inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0", "inertia", "GL108")
         if self.cycle is not None and self.cycle_angle is not None:
-            _refuse("cycle_angle", "cycle_angle and cycle exclude each other\nomit cycle_angle or cycle")
+            raise refused("cycle_angle and cycle exclude each other\nomit cycle_angle or cycle", "cycle_angle")
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()
@@ -410,39 +384,43 @@ class WideSwingSpec(TolerancedSpec):
         parallel = self.layout == "twin-cam-parallel"
         if parallel and self.cam is not None and self.cam.second is None:
             words = "second: {direction: 110}, the shaft of the return cam"
-            _refuse("cam.second", "the key 'second' is missing", "GL106", help=words)
+            raise refused(f"the key 'second' is missing\n{words}", "cam.second", "GL106")
         if not parallel and self.cam is not None and self.cam.second is not None:
-            _refuse(
-                "cam.second",
+            raise refused(
                 "a second shaft belongs to layout: twin-cam-parallel\nremove cam.second, or give that layout",
+                "cam.second",
             )
         if not parallel and self.gears is not None:
-            _refuse(
-                "gears",
+            raise refused(
                 "gears between the shafts belong to layout: twin-cam-parallel\nremove gears, or give that layout",
+                "gears",
             )
         if parallel and self.gears is not None and self.cam is None:
-            _refuse("cam", "the gears need the section cam: center_distance, roller_radius, second", "GL106")
+            raise refused("the gears need the section cam: center_distance, roller_radius, second", "cam", "GL106")
 
     def _cam_with_slider(self, cam: SwingCam) -> None:
         if self.layout != "twin-cam":
-            _refuse("layout", "the cam of a rocker with a slider has an external profile: layout must be twin-cam")
+            raise refused(
+                "the cam of a rocker with a slider has an external profile: layout must be twin-cam", "layout"
+            )
         if self.cycle is not None:
-            _refuse("cycle", "a cycle is that of a rocker without a slider\ngive cycle_angle")
+            raise refused("a cycle is that of a rocker without a slider\ngive cycle_angle", "cycle")
         if cam.rocker_radius is not None:
-            _refuse("cam.rocker_radius", "the law of a slider gives the rocker radius\nomit cam.rocker_radius")
+            raise refused("the law of a slider gives the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius")
 
     def _agree_with_drive(self) -> None:
         if self.cycle is not None:
-            _refuse("cycle", "the drive's dead centres give the crank angles of both strokes\nomit cycle")
+            raise refused("the drive's dead centres give the crank angles of both strokes\nomit cycle", "cycle")
         if self.cycle_angle is not None:
-            _refuse("cycle_angle", "the drive's dead centres give the crank angle of the stroke\nomit cycle_angle")
+            raise refused(
+                "the drive's dead centres give the crank angle of the stroke\nomit cycle_angle", "cycle_angle"
+            )
         if self.cam is None:
-            _refuse("cam", "a drive needs the section cam: center_distance, roller_radius", "GL106")
+            raise refused("a drive needs the section cam: center_distance, roller_radius", "cam", "GL106")
         if self.layout != "twin-cam":
-            _refuse("layout", "an oscillating cam has an external profile: layout must be twin-cam")
+            raise refused("an oscillating cam has an external profile: layout must be twin-cam", "layout")
         if self.cam.rocker_radius is not None:
-            _refuse("cam.rocker_radius", "the drive gives the rocker radius\nomit cam.rocker_radius")
+            raise refused("the drive gives the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius")
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

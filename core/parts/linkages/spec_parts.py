@@ -5,9 +5,17 @@ from __future__ import annotations
 from typing import Annotated
 
 from pydantic import Field
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import AcuteAngle, Distance, DrawingLimits, GearLimits, LoadLimits, SignedLength, unit
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Distance,
+    DrawingLimits,
+    GearLimits,
+    LoadLimits,
+    SignedLength,
+    refused,
+    unit,
+)
 
 TurnAngle = Annotated[float, unit("deg", ge=-3600, le=3600)]
 
@@ -37,14 +45,10 @@ def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth
     if rim is None:
         return
     if ring is None:
-        raise PydanticCustomError("GL111", "rim goes with a ring gear\nomit it", {"key": "rim"})
+        raise refused("rim goes with a ring gear\nomit it", "rim")
     if own_teeth:
         return
     root = module * (0.5 * ring + 1.25)
     if rim <= root:
-        raise PydanticCustomError(
-            "GL111",
-            "radius of the rim: {rim} mm (limit > {root} mm, the root radius of the ring gear)\nraise rim above "
-            f"{root} mm",
-            {"key": "rim", "rim": f"{rim:g}", "root": f"{root:g}"},
-        )
+        message = f"radius of the rim: {rim:g} mm (limit > {root:g} mm, the root radius of the ring gear)"
+        raise refused(f"{message}\nraise rim above {root} mm", "rim")

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Distance, Length, Ratio, Spec, unit
+from gearlink.core.base.spec import Distance, Length, Ratio, Spec, refused, unit
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
 
 Plain = Annotated[float, unit("1", ge=-1e6, le=1e6)]
@@ -63,27 +62,26 @@ class Feed(Spec):
             message = (
                 "radius goes with a roller or a belt, pitch and teeth with a chain\nomit radius, or pitch and teeth"
             )
-            raise PydanticCustomError("GL111", message, {"key": chain[0]})
+            raise refused(message, chain[0])
         if self.radius is None and len(chain) < 2:
-            raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
+            raise refused("give radius, or pitch and teeth of a chain", "radius", "GL106")
         if chain and self.belt_thickness:
-            raise PydanticCustomError("GL111", "a chain has no belt_thickness\nomit it", {"key": "belt_thickness"})
+            raise refused("a chain has no belt_thickness\nomit it", "belt_thickness")
         return self
 
     def _of_step(self) -> Feed:
         """A step leaves one size to be found."""
         ratio = "ratio" in self.model_fields_set
         if self.radius is not None:
-            raise PydanticCustomError("GL111", "step finds the radius\nomit one of them", {"key": "radius"})
+            raise refused("step finds the radius\nomit one of them", "radius")
         if self.teeth is not None and self.pitch is None:
-            raise PydanticCustomError("GL106", "teeth go with pitch\ngive it", {"key": "pitch"})
+            raise refused("teeth go with pitch\ngive it", "pitch", "GL106")
         if self.teeth is not None and ratio:
-            raise PydanticCustomError("GL111", "step finds the ratio, or the teeth\nomit one of them", {"key": "ratio"})
+            raise refused("step finds the ratio, or the teeth\nomit one of them", "ratio")
         if self.pitch is not None and self.teeth is None and not ratio:
-            message = "of a chain step needs pitch and teeth, or pitch and ratio"
-            raise PydanticCustomError("GL106", message, {"key": "teeth"})
+            raise refused("of a chain step needs pitch and teeth, or pitch and ratio", "teeth", "GL106")
         if self.pitch is not None and self.belt_thickness:
-            raise PydanticCustomError("GL111", "a chain has no belt_thickness\nomit it", {"key": "belt_thickness"})
+            raise refused("a chain has no belt_thickness\nomit it", "belt_thickness")
         return self
 
 
@@ -94,13 +92,11 @@ def require_function(
     if (name == "power") != (exponent is not None):
         message = "exponent goes with power, and a power needs one\n"
         message += "give exponent" if name == "power" else "omit exponent"
-        raise PydanticCustomError("GL111", "{message}", {"key": "exponent", "message": message})
+        raise refused(message, "exponent")
     if x is not None and x[0] == x[1]:
-        raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
+        raise refused("x is the same at both ends\ngive an interval", "x[1]")
     if output_swing == 0.0:
-        raise PydanticCustomError(
-            "GL108", "an output at rest is no function\ngive output_swing above or below 0", {"key": "output_swing"}
-        )
+        raise refused("an output at rest is no function\ngive output_swing above or below 0", "output_swing", "GL108")
 
 
 class FourLinks(Spec):

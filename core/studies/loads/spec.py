@@ -7,9 +7,8 @@ import math
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec, unit
+from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec, refused, unit
 from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import unlike
 
@@ -47,7 +46,7 @@ class Zone(Spec):
     @model_validator(mode="after")
     def _some_width(self) -> Zone:
         if self.start == self.end:
-            raise PydanticCustomError("GL111", "this zone is empty: it ends where it starts", {"key": "to"})
+            raise refused("this zone is empty: it ends where it starts", "to")
         return self
 
 
@@ -65,9 +64,7 @@ class Course(Spec):
     @model_validator(mode="after")
     def _one(self) -> Course:
         if (self.table is None) == (self.zones is None):
-            raise PydanticCustomError(
-                "GL111", "give either table or zones", {"key": "zones" if self.table else "table"}
-            )
+            raise refused("give either table or zones", "zones" if self.table else "table")
         if self.table is not None:
             angles = [angle for angle, _ in self.table]
             back = next((i for i, (a, b) in enumerate(itertools.pairwise(angles), 1) if b <= a), 0)
@@ -76,17 +73,16 @@ class Course(Spec):
                     f"the angles of a table must ascend: table[{back}] is at "
                     f"{unlike(angles[back], angles[back - 1])} deg, after {unlike(angles[back - 1], angles[back])} deg"
                 )
-                raise PydanticCustomError("GL111", "{message}", {"message": message, "key": f"table[{back}]"})
+                raise refused(message, f"table[{back}]")
             if angles[-1] - angles[0] > 360.0:
-                message = "a table covers one revolution at most"
-                raise PydanticCustomError("GL111", message, {"key": "table"})
+                raise refused("a table covers one revolution at most", "table")
             if angles[-1] - angles[0] == 360.0 and self.table[0][1] != self.table[-1][1]:
                 message = (
                     "a table over a whole revolution ends with the value that it starts with, or without its last pair"
                 )
-                raise PydanticCustomError("GL111", message, {"key": "table"})
+                raise refused(message, "table")
             if self.interpolation == "cubic" and len(angles) < 3:
-                raise PydanticCustomError("GL111", "cubic needs three pairs or more", {"key": "interpolation"})
+                raise refused("cubic needs three pairs or more", "interpolation")
         return self
 
 
@@ -111,11 +107,11 @@ class Load(Spec):
         given = [name for name in ("torque", "force", "resistance") if getattr(self, name) is not None]
         if len(given) != 1:
             message = "give torque, force or resistance" if not given else "give one of torque, force and resistance"
-            raise PydanticCustomError("GL111", message, {"key": given[1] if given else "on"})
+            raise refused(message, given[1] if given else "on")
         if isinstance(self.force, list) and self.point is None:
-            raise PydanticCustomError("GL106", "a force [x, y] needs the point where it acts", {"key": "force"})
+            raise refused("a force [x, y] needs the point where it acts", "force", "GL106")
         if self.point is not None and not isinstance(self.force, list):
-            raise PydanticCustomError("GL111", "point goes with a force [x, y]", {"key": "point"})
+            raise refused("point goes with a force [x, y]", "point")
         return self
 
 
@@ -161,7 +157,7 @@ class Flywheel(Spec):
     @model_validator(mode="after")
     def _something(self) -> Flywheel:
         if self.inertia is None and self.fluctuation is None:
-            raise PydanticCustomError("GL106", "give inertia, fluctuation or both", {"key": "inertia"})
+            raise refused("give inertia, fluctuation or both", "inertia", "GL106")
         return self
 
 
@@ -189,16 +185,14 @@ class Motor(Spec):
     @model_validator(mode="after")
     def _characteristic(self) -> Motor:
         if self.slope is None and (self.rated_speed is None or self.rated_torque is None):
-            raise PydanticCustomError("GL106", "give rated_speed and rated_torque, or slope", {"key": "rated_speed"})
+            raise refused("give rated_speed and rated_torque, or slope", "rated_speed", "GL106")
         if self.slope is not None and self.rated_speed is not None:
-            raise PydanticCustomError(
-                "GL111", "slope and rated_speed exclude each other\nomit slope or rated_speed", {"key": "slope"}
-            )
+            raise refused("slope and rated_speed exclude each other\nomit slope or rated_speed", "slope")
         if self.rated_speed is not None and self.rated_speed >= self.no_load_speed:
             message = (
                 f"rated_speed, {self.rated_speed:g} 1/min, must lie below no_load_speed, {self.no_load_speed:g} 1/min"
             )
-            raise PydanticCustomError("GL111", "{message}", {"message": message, "key": "rated_speed"})
+            raise refused(message, "rated_speed")
         return self
 
 
@@ -220,13 +214,12 @@ class Bearing(Spec):
     @model_validator(mode="after")
     def _complete(self) -> Bearing:
         if self.kind == "plain" and (self.width is None or self.diameter is None):
-            raise PydanticCustomError("GL106", "a plain bearing needs width and diameter", {"key": "kind"})
+            raise refused("a plain bearing needs width and diameter", "kind", "GL106")
         rating = next((name for name in ("life", "dynamic_rating") if getattr(self, name) is not None), None)
         if self.kind == "plain" and rating is not None:
-            message = f"a plain bearing has no rating life, only bearing_pressure\nomit {rating}"
-            raise PydanticCustomError("GL111", "{message}", {"key": rating, "message": message})
+            raise refused(f"a plain bearing has no rating life, only bearing_pressure\nomit {rating}", rating)
         if self.kind != "plain" and self.dynamic_rating is None:
-            raise PydanticCustomError("GL106", "a rolling bearing needs dynamic_rating", {"key": "kind"})
+            raise refused("a rolling bearing needs dynamic_rating", "kind", "GL106")
         return self
 
     @property
@@ -258,7 +251,7 @@ class Vibration(Spec):
     @model_validator(mode="after")
     def _one(self) -> Vibration:
         if (self.frequency is None) == (self.stiffness is None):
-            raise PydanticCustomError("GL106", "give either frequency or stiffness", {"key": "frequency"})
+            raise refused("give either frequency or stiffness", "frequency", "GL106")
         return self
 
 

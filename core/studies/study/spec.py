@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import DesignSpec, Spec, unit
+from gearlink.core.base.spec import DesignSpec, Spec, refused, unit
 
 _MOST_OBJECTIVES = 6
 _MOST_DESIGNS = 1e12
@@ -42,28 +41,23 @@ class VariableSpec(Spec):
             for name in ("from_", "to", "step", "points", "times"):
                 if getattr(self, name) is not None:
                     message = "values goes without from, to, step, points and times\ngive the one or the others"
-                    raise PydanticCustomError("GL111", message, {"key": name.rstrip("_")})
+                    raise refused(message, name.rstrip("_"))
             if self.log:
-                raise PydanticCustomError("GL111", "values are taken as they are\nomit log", {"key": "log"})
+                raise refused("values are taken as they are\nomit log", "log")
             return self
         if self.from_ is None or self.to is None:
             missing = "from" if self.from_ is None else "to"
-            raise PydanticCustomError("GL106", "give from and to, or values", {"key": missing})
+            raise refused("give from and to, or values", missing, "GL106")
         if self.step is not None and self.points is not None:
-            raise PydanticCustomError(
-                "GL111", "step and points exclude each other\nomit step or points", {"key": "points"}
-            )
+            raise refused("step and points exclude each other\nomit step or points", "points")
         if self.times is not None and self.points is not None:
-            raise PydanticCustomError("GL111", "points goes without times\ngive step", {"key": "points"})
+            raise refused("points goes without times\ngive step", "points")
         if self.to < self.from_:
-            words = "the range is empty: from {low} is above to {high}; exchange them"
-            numbers = {"key": "to", "low": f"{self.from_:g}", "high": f"{self.to:g}"}
-            raise PydanticCustomError("GL111", words, numbers)
+            raise refused(f"the range is empty: from {self.from_:g} is above to {self.to:g}; exchange them", "to")
         if self.log and self.step is not None:
-            message = "step makes equal steps, log equal ratios\ngive points instead of step, or omit log"
-            raise PydanticCustomError("GL111", message, {"key": "log"})
+            raise refused("step makes equal steps, log equal ratios\ngive points instead of step, or omit log", "log")
         if self.log and not self.from_ > 0.0:
-            raise PydanticCustomError("GL108", "equal ratios need a range above 0", {"key": "from"})
+            raise refused("equal ratios need a range above 0", "from", "GL108")
         return self
 
 
@@ -117,15 +111,14 @@ class StudySpec(DesignSpec):
     @model_validator(mode="after")
     def _consistent(self) -> StudySpec:
         if (self.of is None) == (self.design is None):
-            message = "give `of` or `design`, exactly one"
-            raise PydanticCustomError("GL150", message, {"key": "of" if self.of is not None else "design"})
+            raise refused("give `of` or `design`, exactly one", "of" if self.of is not None else "design", "GL150")
         objectives = [*self.minimize, *self.maximize]
         if not objectives:
-            raise PydanticCustomError("GL106", "give minimize, maximize or both", {"key": "minimize"})
+            raise refused("give minimize, maximize or both", "minimize", "GL106")
         if len(objectives) > _MOST_OBJECTIVES:
-            message = "{count} objectives are more than {most}\nmake some of them conditions under where"
-            context = {"key": "maximize" if self.maximize else "minimize", "count": len(objectives)}
-            raise PydanticCustomError("GL108", message, {**context, "most": _MOST_OBJECTIVES})
+            message = f"{len(objectives)} objectives are more than {_MOST_OBJECTIVES}"
+            key = "maximize" if self.maximize else "minimize"
+            raise refused(f"{message}\nmake some of them conditions under where", key, "GL108")
         return self
 
     def commands(self) -> tuple[str, ...]:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
-from gearlink.core.base.spec import Angle, Distance, Length, Spec, also, unit
+from gearlink.core.base.spec import Angle, Distance, Length, Spec, also, refused, unit
 from gearlink.core.base.torsion import OfShaft
 
 _SIZES = (
@@ -32,11 +31,6 @@ Grade = Annotated[int, Field(json_schema_extra={"unit": "1", "minimum": 1, "maxi
 Torque = Annotated[float, unit("N m")]
 Share = Annotated[float, unit("1", gt=0, lt=1)]
 Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
-
-
-def _wrong(code: str, text: str, key: str = "") -> PydanticCustomError:
-    text = text.replace("{", "{{").replace("}", "}}")
-    return PydanticCustomError(code, text, {"key": key}) if key else PydanticCustomError(code, text)
 
 
 class ToleranceSource(Spec):
@@ -87,18 +81,18 @@ class ToleranceSource(Spec):
     def _one_form(self) -> ToleranceSource:
         given = [name for name in _SIZES if getattr(self, name if name != "class" else "class_") is not None]
         if self.upper is not None and self.lower is None:
-            raise _wrong("GL171", "upper without lower\ngive both, or plus_minus")
+            raise refused("upper without lower\ngive both, or plus_minus", code="GL171")
         if self.lower is not None and self.upper is None:
-            raise _wrong("GL171", "lower without upper\ngive both, or plus_minus")
+            raise refused("lower without upper\ngive both, or plus_minus", code="GL171")
         if not given and self.grades is not None:
             text = (
                 "grades alone say no size to begin with, from which --allocate chooses\nadd class: js8, or plus_minus"
             )
-            raise _wrong("GL171", text)
+            raise refused(text, code="GL171")
         if not given:
-            raise _wrong("GL171", f"no limits\ngive one of {', '.join(_SIZES)}")
+            raise refused(f"no limits\ngive one of {', '.join(_SIZES)}", code="GL171")
         if len(given) > 1:
-            raise _wrong("GL171", f"{' and '.join(given)} exclude each other\nkeep one")
+            raise refused(f"{' and '.join(given)} exclude each other\nkeep one", code="GL171")
         self._complete(given[0])
         self._process()
         return self
@@ -107,32 +101,32 @@ class ToleranceSource(Spec):
         for one, other in (("fit", "size"), ("group", "bore"), ("grade", "width")):
             if (form == one) != (getattr(self, other) is not None):
                 what = f"{other} belongs to {one}" if form != one else f"{one} needs {other}"
-                raise _wrong("GL171", f"{what}\ngive both or neither")
+                raise refused(f"{what}\ngive both or neither", code="GL171")
         for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
             if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
-                raise _wrong(
-                    "GL171", f"the limits {pair[0]:g} and {pair[1]:g} leave no interval: the first must be the smaller"
+                raise refused(
+                    f"the limits {pair[0]:g} and {pair[1]:g} leave no interval: the first must be the smaller",
+                    code="GL171",
                 )
         if self.clearance is not None and self.clearance[0] < 0:
-            raise _wrong("GL171", f"a clearance of {self.clearance[0]:g} mm is an interference\ngive 0 or more")
+            raise refused(f"a clearance of {self.clearance[0]:g} mm is an interference\ngive 0 or more", code="GL171")
         if self.grades is not None and not 1 <= self.grades[0] <= self.grades[1] <= 18:
-            raise _wrong(
-                "GL173", f"grades {self.grades}\ngive the finest and the coarsest of IT1 to IT18, in that order"
+            raise refused(
+                f"grades {self.grades}\ngive the finest and the coarsest of IT1 to IT18, in that order", code="GL173"
             )
 
     def _process(self) -> None:
         if self.cpk is not None and self.cpk > self.cp:
-            raise _wrong(
-                "GL172",
+            raise refused(
                 f"cpk: {self.cpk:g} (limit <= {self.cp:g}, cp)\nlower cpk or raise cp: at mid-tolerance they are equal",
+                code="GL172",
             )
         if self.cpk is not None and self.cpk < self.cp and self.shift is None:
-            raise _wrong(
-                "GL172",
-                f"cpk: {self.cpk:g} (limit >= {self.cp:g}, cp, without shift)\ngive shift: up or down",
+            raise refused(
+                f"cpk: {self.cpk:g} (limit >= {self.cp:g}, cp, without shift)\ngive shift: up or down", code="GL172"
             )
         if self.mode is not None and self.law != "triangular":
-            raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}\nomit it")
+            raise refused(f"mode belongs to the triangular law, this one is {self.law}\nomit it", code="GL171")
 
 
 class Correlation(Spec):
@@ -146,7 +140,7 @@ class Correlation(Spec):
     @model_validator(mode="after")
     def _a_correlation(self) -> Correlation:
         if not -1.0 <= self.rho <= 1.0:
-            raise _wrong("GL176", f"rho: {self.rho:g} (limit -1 to 1)\ngive a correlation within -1 and 1", "rho")
+            raise refused(f"rho: {self.rho:g} (limit -1 to 1)\ngive a correlation within -1 and 1", "rho", "GL176")
         return self
 
 
@@ -183,14 +177,14 @@ class Tolerance(Spec):
     def _known_sources(self) -> Tolerance:
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
-                raise _wrong(
-                    "GL176", f"{named(unknown[0])} of correlated is no source\nname keys of `sources`", "correlated"
+                raise refused(
+                    f"{named(unknown[0])} of correlated is no source\nname keys of `sources`", "correlated", "GL176"
                 )
             if twice := [name for name in group.sources if group.sources.count(name) > 1]:
-                raise _wrong(
-                    "GL176",
+                raise refused(
                     f"{named(twice[0])} is listed twice in one group of correlated\nname different sources",
                     "correlated",
+                    "GL176",
                 )
         return self
 
