@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Protocol, TypeAlias
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table
@@ -679,15 +679,8 @@ class MotionRegister(RegisterDesign):
         gears = {name: gear.teeth for name, gear in self.movable.gears.items()}
         return Parts(dict(self.movable.centers), pins + self.movable.rollers, gears, dict(self.movable.others))
 
-    @property
-    def errors(self) -> Errors:
-        """By size, what it moves."""
-        return self.movable.sizes
-
-    @property
-    def pins(self) -> Errors:  # type: ignore[override]
-        """By pin, what its play moves where that is not the element on the first link."""
-        return self.movable.pins
+    errors: Errors = placed("movable.sizes")
+    pins: ClassVar[Errors] = placed("movable.pins")
 
     @property
     def gears(self) -> dict[str, str]:  # type: ignore[override]

@@ -32,11 +32,8 @@ def rated_forces(design: LoadsDesign) -> dict[str, float]:
 
     F_t K_A r/r_w
     """
-    machine, keys = _with_gears(design)
-    if getattr(keys, "load", None) is None or not hasattr(type(machine), "mesh_data"):
-        return {}
     found = {}
-    for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False):
+    for name, data in _meshes(design, "load"):
         force, pair = data.flank.tangential_force, data.pair
         found[name] = force * data.load.factors.application * pair.reference_radius[0] / pair.working_radius[0]
     return found
@@ -56,10 +53,7 @@ def bending_force(mesh: MeshLoad) -> float:
 
 def drawn_play(design: LoadsDesign) -> dict[str, float]:
     """Maximum circumferential backlash that the gears as drawn leave [mm], by mesh; empty without allowances."""
-    machine, keys = _with_gears(design)
-    if getattr(keys, "allowances", None) is None:
-        return {}
-    plays = {name: data.backlash for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False)}
+    plays = {name: data.backlash for name, data in _meshes(design, "allowances")}
     return {name: play.circumferential[1] for name, play in plays.items() if play is not None}
 
 
@@ -71,14 +65,13 @@ def thrust(design: LoadsDesign, pin: str) -> float:
     Parameters
         pin : str - of a gear, or of the link that a gear is fixed to
     """
-    machine, keys = _with_gears(design)
-    if not getattr(keys, "helix_angle", 0.0):
+    if not (meshes := _meshes(design, "helix_angle")):
         return 0.0
     connections = {each.name: each for each in design.machine.at(np.zeros(1)).connections}
     pins = [_links_of(each) for each in connections.values() if isinstance(each, Pin)]
     held = _links_of(connections[pin])
     found = [0.0]
-    for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False):
+    for name, data in meshes:
         gears = _links_of(connections[name])
         on_one_pin = [links for gear in gears if len(links := [each for each in pins if gear in each]) == 1]
         if held & gears.union(*itertools.chain(*on_one_pin)):  # a gear on one pin pushes the link that carries it
@@ -92,16 +85,13 @@ def _links_of(connection: Connection) -> set[str]:
     return {getattr(connection, "first", FRAME), connection.second} - {FRAME}
 
 
-def _drawn(design: LoadsDesign) -> list[str]:
-    """The meshes that a design has; those whose gears the file draws come first."""
-    return [name for name in design.meshes if design.has(name)]
-
-
-def _with_gears(design: Any) -> tuple[Any, Any]:
-    """The part of a machine that knows its meshes, and the section with their keys."""
+def _meshes(design: Any, key: str) -> list[tuple[str, Any]]:
+    """The meshes whose gears the file draws, which come first, with their data; none where it leaves out a key."""
     machine = design if hasattr(type(design), "mesh_data") else design.design
-    spec = machine.spec
-    return machine, getattr(spec, "gears", None) or getattr(spec, "input_gears", None) or spec
+    keys = getattr(machine.spec, "gears", None) or getattr(machine.spec, "input_gears", None) or machine.spec
+    if not getattr(keys, key, None) or not hasattr(type(machine), "mesh_data"):
+        return []
+    return list(zip(filter(design.has, design.meshes), machine.mesh_data.values(), strict=False))
 
 
 CHECKS = (

@@ -447,9 +447,9 @@ class LoadsDesign(Design):
     @cached_property
     def torque_reversals(self) -> int:
         """Changes of sign of the input torque over the period."""
-        from gearlink.core.studies.loads.joints import sign_changes
+        from gearlink.core.studies.loads.joints import places
 
-        return sign_changes(self.machine.torque, self.machine, self.torque_size)
+        return len(places(self.machine.torque, self.machine, self.torque_size))
 
     reflected_inertia_max: float = at_extreme("inertia")
     reflected_inertia_min: float = at_extreme("inertia", False)
@@ -760,9 +760,8 @@ class LoadsDesign(Design):
     """Of a cam mechanism without a spring: the key and the minimum value that hold the rollers on their cams."""
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:
-        """Remedies from closed forms."""
-
-        return candidates(self, check)
+        """Remedies from closed forms, the minimum change first."""
+        return _FINDERS[check](self) if check in _FINDERS else ()
 
     table_torque, table_joints = tables.torque, tables.joints
     table_teeth, table_frame, table_speed = tables.teeth, tables.frame, tables.speed
@@ -798,12 +797,6 @@ _STRONGER = (1.25, 1.6, 2.0, 3.0, 5.0)
 _SLOWER = (0.9, 0.8, 0.6, 0.4)
 _HALVINGS = 12
 _USUAL_FLUCTUATION, _USUAL_DAMPING = 0.1, 0.03
-
-
-def candidates(design: LoadsDesign, check: str) -> Iterator[Remedy]:
-    """What may repair a check, the minimum change first."""
-    find = _FINDERS.get(check)
-    yield from () if find is None else find(design)
 
 
 def _wider(design: LoadsDesign) -> Iterator[Remedy]:

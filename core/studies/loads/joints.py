@@ -57,11 +57,6 @@ def places_of(functions: Sequence[tuple[Function, float]], machine: Machine) -> 
     return found
 
 
-def sign_changes(f: Function, machine: Machine, size: float) -> int:
-    """How many of them there are."""
-    return len(places(f, machine, size))
-
-
 def _without_noise(f: Function, size: float, phi: Reals) -> Reals:
     values = f(phi)
     return np.where(np.abs(values) <= NOISE * size, 0.0, values)

@@ -229,13 +229,10 @@ class MotorRun:
         """Energy at the end of a panel, its derivative by that at the start, and dE/dphi at the nodes; None: stalls."""
         order = self.panels.order
         matrix, weights = _collocation(order)
-        load, inertia = self._given[0][k], self._given[1][k]
         h = float(self.panels.edges[k + 1] - self.panels.edges[k])
         values = np.full(order, energy)
         for _ in range(_STEPS):
-            speed = np.sqrt(2.0 * values / inertia)
-            rate = self.slope * (self.no_load - speed) - load
-            fall = -self.slope / (inertia * speed)
+            rate, fall = self._rates(values, k)
             system = np.eye(order) - h * matrix * fall
             step = np.linalg.solve(system, energy + h * (matrix @ rate) - values)
             share = 1.0
@@ -246,9 +243,7 @@ class MotorRun:
             values = values + share * step
             if share == 1.0 and np.max(np.abs(step)) <= _SETTLED * np.max(values):
                 break
-        speed = np.sqrt(2.0 * values / inertia)
-        rate = self.slope * (self.no_load - speed) - load
-        fall = -self.slope / (inertia * speed)
+        rate, fall = self._rates(values, k)
         gain = np.linalg.solve(np.eye(order) - h * matrix * fall, np.ones(order))
         end = energy + h * float(weights @ rate)
         return (end, 1.0 + h * float(weights @ (fall * gain)), rate) if end > 0.0 else None
@@ -265,9 +260,9 @@ class MotorRun:
             rates.append(found[2])
         return edges[-1] - energy, slope, np.array(edges), np.array(rates)
 
-    def _rates(self, values: Reals) -> tuple[Reals, Reals]:
-        """dE/dphi at the nodes of all panels where the energies there are these, and its derivative by them."""
-        load, inertia = self._given
+    def _rates(self, values: Reals, k: Any = ...) -> tuple[Reals, Reals]:
+        """dE/dphi at the nodes of a panel, or of all, where these are the energies there, and its slope by them."""
+        load, inertia = (each[k] for each in self._given)
         speed = np.sqrt(2.0 * values / inertia)
         return self.slope * (self.no_load - speed) - load, -self.slope / (inertia * speed)
 
