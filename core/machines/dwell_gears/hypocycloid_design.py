@@ -29,7 +29,8 @@ from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.mechanism.closures import slider
-from gearlink.core.mechanism.courses import coordinate, turned
+from gearlink.core.mechanism.courses import Shown as Column
+from gearlink.core.mechanism.courses import coordinate, motion_table, of_output, turned
 from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
@@ -796,14 +797,12 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
     stroke: float = placed("slider.stroke")
 
     @property
-    def dwell_deviation_min(self) -> float:
-        """Minimum deviation in the dwell [mm]."""
-        return self.slider.deviation_range(self.dwell_carrier_angle)[0]
+    def _deviations(self) -> tuple[float, float]:
+        """Minimum and maximum deviation in the dwell [mm]."""
+        return self.slider.deviation_range(self.dwell_carrier_angle)
 
-    @property
-    def dwell_deviation_max(self) -> float:
-        """Maximum deviation in the dwell [mm]."""
-        return self.slider.deviation_range(self.dwell_carrier_angle)[1]
+    dwell_deviation_min: float = placed("_deviations.0")
+    dwell_deviation_max: float = placed("_deviations.1")
 
     @property
     def dwell_ripple(self) -> float:
@@ -876,24 +875,22 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a revolution of the carrier; the middle of the dwell is at carrier angle 0."""
-        from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, of_output, turned
-
         if self.spec.is_arm:
             course, place = turned("arm"), -self.arm.ratio * self.point_radius
             of_arm = [
                 *of_output(course),
-                Shown("x", coordinate("planet", place)),
-                Shown("y", coordinate("planet", place, 1j)),
+                Column("x", coordinate("planet", place)),
+                Column("y", coordinate("planet", place, 1j)),
             ]
             return motion_table("motion", self, of_arm, samples)
         way, point = outwards(self), -self.slider.ratio * self.slider.planet_radius
         shown = [
-            Shown("deviation", way.scaled(-1.0)),
-            Shown("velocity", way, 1, "slider_velocity"),
-            Shown("acceleration", way, 2, "slider_acceleration"),
-            Shown("rod_angle", turned("rod", sense=-1.0)),
-            Shown("x", coordinate("planet", point)),
-            Shown("y", coordinate("planet", point, 1j)),
+            Column("deviation", way.scaled(-1.0)),
+            Column("velocity", way, 1, "slider_velocity"),
+            Column("acceleration", way, 2, "slider_acceleration"),
+            Column("rod_angle", turned("rod", sense=-1.0)),
+            Column("x", coordinate("planet", point)),
+            Column("y", coordinate("planet", point, 1j)),
         ]
         return motion_table("motion", self, shown, samples)
 
@@ -901,33 +898,19 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     def check_dwell_quality(self) -> Iterator[Check]:
         """GL311: the dwell that is reached within the tolerance against the one that is wanted."""
-        if self.spec.is_arm:
-            yield from self._arm_quality()
+        tolerance, asked, arm = self.spec.dwell.tolerance, self.spec.dwell.angle, self.spec.is_arm
+        reached = self.tolerance_dwell_angle if arm else self.tolerance_carrier_angle
+        if tolerance is None or reached is None or (arm and asked is None):
             return
-        tolerance, reached = self.spec.dwell.tolerance, self.tolerance_carrier_angle
-        if tolerance is None or reached is None:
-            return
-        wanted, found = math.degrees(self.dwell_carrier_angle), math.degrees(reached)
-        met = found >= wanted - 1e-9
-        aside = f"within +-{short(tolerance)} mm"
-        if not met:
-            aside += f"; the slider moves {short(self.dwell_ripple)} mm over the required angle"
-        what, fix = "dwell of the slider", "allow a larger dwell.tolerance"
-        shown = Shown(found, min(wanted, found) if met else wanted, "deg", ">=")
-        yield DWELL_QUALITY.check(
-            "pass" if met else "fail", what, found, wanted, "deg", shown=shown, aside=aside, fix=fix
-        )
-
-    def _arm_quality(self) -> Iterator[Check]:
-        asked, reached, tolerance = self.spec.dwell.angle, self.tolerance_dwell_angle, self.spec.dwell.tolerance
-        if asked is None or reached is None:
-            return
+        wanted = asked if arm and asked is not None else math.degrees(self.dwell_carrier_angle)
         found = math.degrees(reached)
-        met, what, fix = found >= asked - 1e-9, "dwell of the arm", "allow a larger dwell.tolerance"
-        shown = Shown(found, min(asked, found) if met else asked, "deg", ">=")
-        aside = "" if tolerance is None else f"within +-{short(tolerance)} deg"
+        met, aside = found >= wanted - 1e-9, f"within +-{short(tolerance)} {'deg' if arm else 'mm'}"
+        if not met and not arm:
+            aside += f"; the slider moves {short(self.dwell_ripple)} mm over the required angle"
+        what, fix = f"dwell of the {'arm' if arm else 'slider'}", "allow a larger dwell.tolerance"
+        shown = Shown(found, min(wanted, found) if met else wanted, "deg", ">=")
         status: Status = "pass" if met else "fail"
-        yield DWELL_QUALITY.check(status, what, found, asked, "deg", shown=shown, aside=aside, fix=fix)
+        yield DWELL_QUALITY.check(status, what, found, wanted, "deg", shown=shown, aside=aside, fix=fix)
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""
@@ -965,28 +948,21 @@ def motion(design: HypocycloidDwell) -> Motion:
     """Links and joints over the carrier angle from the middle of the dwell's arc; ring's centre at 0, slider on +x."""
     if design.spec.is_arm:
         return _arm_motion(design)
-    geometry = design.slider
-    r, n, rod = geometry.planet_radius, geometry.cusps, geometry.rod
-    tangent = math.tan(design.mesh.working_pressure_angle)
+    rod, train = design.slider.rod, _train(design)
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
-        carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": (n - 1) * r})
-        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), {"B": 0.0, "M": -geometry.ratio * r})
-        turn, end = slider(planet.at("M"), rod, 0j, 1.0 + 0j)
-        links = {
-            "carrier": carrier,
-            "planet": planet,
-            "rod": Link(planet.at("M"), turn, {"M": 0.0, "F": rod}),
-            "slider": Link(end, standing(0.0, phi, order=order), {"F": 0.0}),
-        }
-        center = carrier.origin.value
-        connections: list[Connection] = [
-            Pin("O", FRAME, "carrier", center),
-            Pin("planet", "carrier", "planet", planet.origin.value),
-            Pin("M", "planet", "rod", planet.at("M").value),
+        links, (pin, axis, mesh) = train(phi, order)
+        point = links["planet"].at("M")
+        turn, end = slider(point, rod, 0j, 1.0 + 0j)
+        links["rod"] = Link(point, turn, {"M": 0.0, "F": rod})
+        links["slider"] = Link(end, standing(0.0, phi, order=order), {"F": 0.0})
+        connections = [
+            pin,
+            axis,
+            Pin("M", "planet", "rod", point.value),
             Pin("F", "rod", "slider", end.value),
             Guide("guide", FRAME, "slider", end.value, 1.0 + 0j),
-            Mesh("mesh_ring", FRAME, "planet", center, carrier.unit, n * r, r, tangent, True, "carrier"),
+            mesh,
         ]
         return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})
 
@@ -994,24 +970,35 @@ def motion(design: HypocycloidDwell) -> Motion:
     return Motion(make, Input("carrier_angle"), outputs, transmission=least_transmission("F"))
 
 
-def _arm_motion(design: HypocycloidDwell) -> Motion:
-    """With an arm about the ring's centre, the point in its slot."""
-    r, n, arm = design.point_radius, design.arm.teeth, design.arm
+def _train(design: HypocycloidDwell) -> Callable[[Reals, int], tuple[dict[str, Link], list[Connection]]]:
+    """Carrier and planet with the point M, and what joins them: the pins O and planet, and the mesh with the ring."""
+    r, n = design.point_radius, design.ring_teeth / design.planet_teeth
     tangent = math.tan(design.mesh.working_pressure_angle)
+    point = {"B": 0.0, "M": -design.spec.point.ratio * r}
 
-    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+    def train(phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
         carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": (n - 1.0) * r})
-        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), {"B": 0.0, "M": -arm.ratio * r})
-        links = {"carrier": carrier, "planet": planet, "arm": Link(carrier.origin, arm.turn(phi, order))}
+        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), point)
         center = carrier.origin.value
-        connections: list[Connection] = [
+        joints: list[Connection] = [
             Pin("O", FRAME, "carrier", center),
             Pin("planet", "carrier", "planet", planet.origin.value),
-            Pin("D", FRAME, "arm", center),
-            Contact("slot", "arm", "planet", planet.at("M").value, 1j * links["arm"].unit),
             Mesh("mesh_ring", FRAME, "planet", center, carrier.unit, n * r, r, tangent, True, "carrier"),
         ]
-        return Mechanism(links, connections, "carrier")
+        return {"carrier": carrier, "planet": planet}, joints
+
+    return train
+
+
+def _arm_motion(design: HypocycloidDwell) -> Motion:
+    """With an arm about the ring's centre, the point in its slot."""
+    train, slotted = _train(design), design.arm
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        links, (pin, axis, mesh) = train(phi, order)
+        arm = links["arm"] = Link(links["carrier"].origin, slotted.turn(phi, order))
+        slot = Contact("slot", "arm", "planet", links["planet"].at("M").value, 1j * arm.unit)
+        return Mechanism(links, [pin, axis, Pin("D", FRAME, "arm", arm.origin.value), slot, mesh], "carrier")
 
     turns = design.planet_teeth // math.gcd(design.planet_teeth, design.ring_teeth)
     course = turned("arm")

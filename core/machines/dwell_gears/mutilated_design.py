@@ -353,11 +353,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
         data = self.mesh_data[""]
         return end_tooth_root(data, end_tooth_radius(self.mesh)), data.true_roots[1]
 
-    @property
-    def generated_root_factor(self) -> tuple[float | None, float | None]:
-        """Maximum tension on the generated fillet over F_t/(b m), of the tooth next to a gap and of the driven gear."""
-        one, other = (None if root is None else root.tension.factor for root in self.generated_roots)
-        return one, other
+    generated_root_factor: list[float | None] = placed("generated_roots.*.tension.factor")
 
     @property
     def generated_root_stress(self) -> tuple[float | None, float | None] | None:
@@ -447,10 +443,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
         starts = [Start(angle, self.driven_speed_ratio * solve(linkage, angle, 1).rocker_velocity) for angle in angles]
         return max(starts, key=lambda start: abs(start.rocker_speed))
 
-    @property
-    def rocker_start_speed(self) -> float | None:
-        """Rocker speed over input speed right after the hardest start, when the driven gear has taken up its own."""
-        return None if self.hardest_start is None else self.hardest_start.rocker_speed
+    rocker_start_speed: float | None = placed("hardest_start.rocker_speed")
 
     @property
     def min_transmission_angle(self) -> float | None:

@@ -258,22 +258,6 @@ def _jumps(design: SwingGripper, order: int) -> list[tuple[str, float]]:
     return [(f"start of {phase}", float(jump)) for phase, jump in zip(PHASES, jumps, strict=True)]
 
 
-def _speed_check(design: SwingGripper) -> Check:
-    mismatch, speed = design.handover.mismatch, design.spec.cylinder.radius * design.motion.shaft_speed
-    share = abs(mismatch) / speed
-    status: Status = "fail" if share > _SPEED_SHARE else "pass"
-    start, end = design.motion.law.starts[1:3]
-    return HANDOVER.check(
-        status,
-        "speed difference of gripper and cylinder at the handover",
-        share,
-        _SPEED_SHARE,
-        shown=Shown(abs(mismatch), _SPEED_SHARE * speed, "mm/s", "<="),
-        aside=f"cylinder {short(speed)} mm/s",
-        fix=f"set handover to {0.5 * (start + end):g}, the middle of the constant phase",
-    )
-
-
 def runs_backwards(design: SwingGripper) -> bool:
     """Whether the cam stands on the shaft of the cylinder that takes the sheet and turns it as the gripper swings."""
     cam = design.spec.cam
@@ -283,19 +267,20 @@ def runs_backwards(design: SwingGripper) -> bool:
     return cam_turns_drum(design)
 
 
-def _backward_check(design: SwingGripper) -> Check:
-    """GL503 of a cylinder that turns with the gripper: on the line of centres the two then run against each other."""
-    speed = design.spec.cylinder.radius * design.motion.shaft_speed
-    apart = abs(design.handover.speed + speed)
-    return HANDOVER.check(
-        "fail",
-        "speed difference of gripper and cylinder at the handover",
-        apart / speed,
-        _SPEED_SHARE,
-        shown=Shown(apart, _SPEED_SHARE * speed, "mm/s", "<="),
-        aside="the cam turns the cylinder on its shaft in the sense of the gripper's swing",
-        fix="reverse cam.sense",
-    )
+def _speed_check(design: SwingGripper) -> Check:
+    """GL503; a cylinder that turns with the gripper runs against it on the line of centres."""
+    backwards, speed = runs_backwards(design), design.spec.cylinder.radius * design.motion.shaft_speed
+    apart = abs(design.handover.speed + speed) if backwards else abs(design.handover.mismatch)
+    status: Status = "fail" if backwards or apart / speed > _SPEED_SHARE else "pass"
+    start, end = design.motion.law.starts[1:3]
+    aside = f"cylinder {short(speed)} mm/s"
+    fix = f"set handover to {0.5 * (start + end):g}, the middle of the constant phase"
+    if backwards:
+        aside = "the cam turns the cylinder on its shaft in the sense of the gripper's swing"
+        fix = "reverse cam.sense"
+    what = "speed difference of gripper and cylinder at the handover"
+    shown = Shown(apart, _SPEED_SHARE * speed, "mm/s", "<=")
+    return HANDOVER.check(status, what, apart / speed, _SPEED_SHARE, shown=shown, aside=aside, fix=fix)
 
 
 def _place_check(design: SwingGripper, center: complex) -> Check:
@@ -1454,7 +1439,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     def check_handover(self) -> Iterator[Check]:
         """GL503: speed, place and release window."""
-        yield _backward_check(self) if runs_backwards(self) else _speed_check(self)
+        yield _speed_check(self)
         if self.spec.cylinder.center is not None:
             yield _place_check(self, complex(*self.spec.cylinder.center))
         if self.spec.release is not None:
