@@ -24,7 +24,8 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
-from gearlink.core.mechanism.courses import between, turned
+from gearlink.core.mechanism.courses import Shown as Column
+from gearlink.core.mechanism.courses import between, motion_table, turned
 from gearlink.core.mechanism.joints import Connection, Pin, ToothDrive
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Input, Motion, Output
@@ -476,20 +477,18 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker until both are back at the start, or over a hundred cycles; a motion begins at 0."""
-        from gearlink.core.mechanism.courses import Shown, motion_table
-
         count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)
         rows = row_numbers(samples, cycles * count)
         degrees = 360.0 * self.cycle_turns * np.arange(rows.start, rows.stop) / count
         gear, rocker = turned("crank").less(self.start_crank_angle or 0.0), turned("rocker")
-        shown = [Shown("driven_angle", gear), Shown("driven_speed_ratio", gear, 1, "driven_speed")]
+        shown = [Column("driven_angle", gear), Column("driven_speed_ratio", gear, 1, "driven_speed")]
         if self.linkage is not None:
             # The jump of the speed at a start has no acceleration: these are those of the motion.
             shown += [
-                Shown("rocker_angle", rocker),
-                Shown("rocker_speed_ratio", rocker, 1, "rocker_speed"),
-                Shown("rocker_acceleration_ratio", rocker, 2, "rocker_acceleration"),
-                Shown("transmission_angle", between("coupler", "rocker")),
+                Column("rocker_angle", rocker),
+                Column("rocker_speed_ratio", rocker, 1, "rocker_speed"),
+                Column("rocker_acceleration_ratio", rocker, 2, "rocker_acceleration"),
+                Column("transmission_angle", between("coupler", "rocker")),
             ]
         return motion_table("motion", self, shown, samples, degrees=degrees)
 

@@ -27,6 +27,8 @@ from gearlink.core.machines.swing_gripper.codes import (
     STOP_SETTLING,
 )
 from gearlink.core.machines.swing_gripper.fingers import FingerCam
+from gearlink.core.machines.swing_gripper.law import PHASES, SixPhaseLaw, balanced
+from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, clear_turn, closed_form_error, turn_remedy
 from gearlink.core.machines.swing_gripper.motion import Motion, require
 from gearlink.core.numerics.arrays import Reals, product, turn_degrees
 from gearlink.core.numerics.extremes import Extreme
@@ -56,8 +58,6 @@ from gearlink.core.studies.clearance import beside_line, beside_turning_arm, bes
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.forces import LeverSpring, RockerInertia, Stop
-    from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
-    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.machines.swing_gripper.spec import (
         ClosingSpring,
         GripperCam,
@@ -231,8 +231,6 @@ _AGREEMENT = 64.0 * 2.0**-52
 
 
 def _away_from_dead_centre(design: SwingGripper) -> str:
-    from gearlink.core.machines.swing_gripper.linkage import turn_remedy
-
     aim = math.radians(design.spec.limits.transmission_angle)
     return turn_remedy(design.motion.linkage, aim, tells=False)
 
@@ -252,8 +250,6 @@ def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
 
 
 def _jumps(design: SwingGripper, order: int) -> list[tuple[str, float]]:
-    from gearlink.core.machines.swing_gripper.law import PHASES
-
     jumps = design.motion.law.joints[:, order]
     return [(f"start of {phase}", float(jump)) for phase, jump in zip(PHASES, jumps, strict=True)]
 
@@ -377,8 +373,6 @@ def _handover(design: SwingGripper) -> Iterator[Remedy]:
 
 def _turn(design: SwingGripper) -> Iterator[Remedy]:
     """ED turned as far as the whole swing needs, in half degrees."""
-    from gearlink.core.machines.swing_gripper.linkage import clear_turn
-
     spec = design.spec
     for more in (0.0, 2.0, 5.0):
         turn, _ = clear_turn(design.motion.linkage, math.radians(spec.limits.transmission_angle + more))
@@ -427,8 +421,6 @@ def _longer(phase: str, dwell: str, given: Phases) -> tuple[Way, ...]:
 
 def _balanced(design: SwingGripper) -> Iterator[Remedy]:
     """The three moving phases with equal accelerations round the constant speed, and the return within its limit."""
-    from gearlink.core.machines.swing_gripper.law import balanced
-
     spec, phases, law = design.spec, design.motion.phases, design.motion.law
     limit = spec.limits.return_acceleration
     if limit is None or spec.phases.balance is not None:
@@ -1268,8 +1260,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     def table_newton(self, samples: int | None = None) -> Table:
         """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
-        from gearlink.core.machines.swing_gripper.linkage import closed_form_error
-
         degrees, loop = self.motion.loop_at(samples)
         motion = self.linkage.motion(degrees)
         columns = {
@@ -1350,8 +1340,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303 at D and at C."""
-        from gearlink.core.machines.swing_gripper.linkage import turn_remedy
-
         limit = self.spec.limits.transmission_angle
         for place, angle in zip(
             ("D (coupler, output)", "C (input, coupler)"), self.motion.min_transmission_angle, strict=True

@@ -6,6 +6,7 @@ The input angle is the cylinder's, which the cams turn with. The spring pulls th
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -85,8 +86,6 @@ class GripperLoads(CamLoadsDesign):
     @cached_property
     def machine(self) -> Machine:
         """Everything, with the closing spring."""
-        from dataclasses import replace
-
         return replace(super().machine, more=self._spring)
 
     def _spring(self, _mechanism: Mechanism, phi: Reals) -> list[Force | Torque]:

@@ -12,13 +12,13 @@ from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_sec
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike, within
+from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases, balanced, require_law
+from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, TwoWays, require_swing, two_ways
+from gearlink.core.numerics.arrays import Reals, largest, turn_degrees
+from gearlink.core.parts.cams.laws import Law, law
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases
-    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, TwoWays
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
-    from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.shaped import Drive, Phase
 
 _STATED = 1e-6
@@ -33,8 +33,6 @@ _OF_LINKAGE = ("links", "pivots", "output_direction", "swing_sense", "assembly",
 @cache
 def _every_degree() -> Reals:
     """One array for all designs: a law that they share is kept for it."""
-    from gearlink.core.numerics.arrays import turn_degrees
-
     degrees = turn_degrees()
     degrees.flags.writeable = False
     return degrees
@@ -62,8 +60,6 @@ class Timing:
     @cached_property
     def phases(self) -> SixPhases:
         """Lengths of the six phases [deg]: as given, with the remainder, or sized by balance."""
-        from gearlink.core.machines.swing_gripper.law import SixPhases, balanced
-
         given = self.spec.phases
         lengths = given.lengths()
         if lengths is not None:
@@ -84,8 +80,6 @@ class Timing:
     @cached_property
     def phase_angles(self) -> SixPhases:
         """Lengths of the six phases [rad]."""
-        from gearlink.core.machines.swing_gripper.law import SixPhases
-
         return SixPhases(*map(math.radians, self.phases))
 
     @property
@@ -102,8 +96,6 @@ class Timing:
 
     def _law_alone(self, phase: str) -> Law:
         """The law of a phase whose length is not known yet."""
-        from gearlink.core.machines.swing_gripper.law import require_law
-        from gearlink.core.parts.cams.laws import law
         from gearlink.core.parts.cams.shaped import Phase
 
         known = Phase(damping=self._drive.damping, to_speed=phase != "return")
@@ -116,8 +108,6 @@ class Timing:
     @cached_property
     def law(self) -> SixPhaseLaw:
         """The six-phase law; its constant speed is R/l_EF."""
-        from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
-
         speed = self.spec.cylinder.radius / self.spec.arm.length
         fast, slow = (self._law_of(phase, speed) for phase in ("accelerate", "decelerate"))
         phases = self.phases
@@ -133,8 +123,6 @@ class Timing:
         Parameters
             rise : float - d beta/d theta at the end of a phase that ends at speed; the swing [deg] of the return
         """
-        from gearlink.core.parts.cams.laws import law
-
         definition = getattr(self.spec.laws, phase if phase != "return" else "return_")
         with in_section(f"laws.{phase}"):
             return (
@@ -218,8 +206,6 @@ class Motion:
     @cached_property
     def linkage(self) -> GripperLinkage:
         """The four-bar A-C-D-E driven by the law at ED."""
-        from gearlink.core.machines.swing_gripper.linkage import require_swing
-
         with at_key("pivots"):
             require_swing(self.unchecked, math.radians(self.spec.limits.transmission_angle))
         return self.unchecked
@@ -227,8 +213,6 @@ class Motion:
     @cached_property
     def unchecked(self) -> GripperLinkage:
         """The same, whether it can make its swing or not."""
-        from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
-
         spec = self.spec
         self._require_pivots_apart()
         return GripperLinkage(
@@ -289,9 +273,6 @@ class Motion:
 
     def loop_at(self, samples: int | None = None) -> tuple[Reals, TwoWays]:
         """Cylinder angles in degrees, and closed form against Newton-Raphson there."""
-        from gearlink.core.machines.swing_gripper.linkage import two_ways
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples) if samples else _every_degree()
         motion = self.linkage.motion(degrees, 0)
         return degrees, two_ways(self.linkage, motion)
@@ -299,24 +280,18 @@ class Motion:
     @cached_property
     def newton_agreement(self) -> float:
         """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
-        from gearlink.core.numerics.arrays import largest
-
         found: float = largest(self.loop.deviation)
         return found
 
     @cached_property
     def rough_agreement(self) -> float:
         """The same every 15 deg [rad], of one of many designs that are tried."""
-        from gearlink.core.numerics.arrays import largest
-
         found: float = largest(self.loop_at(_FEW)[1].deviation)
         return found
 
     @cached_property
     def newton_iterations(self) -> int:
         """Most Newton-Raphson steps at a position."""
-        from gearlink.core.numerics.arrays import largest
-
         found: int = largest(self.loop.iterations)
         return found
 
