@@ -449,27 +449,25 @@ class RegisterDesign(Design):
 
     def table_cycle(self, samples: int | None = None) -> Table:
         """Absolute error over the whole cycle, for either torque sign; the band by rss, whatever the method."""
-        degrees = self.cycle_degrees(samples)
-        found = [budget(self.contributions(np.radians(degrees), sign), None, self.correlations) for sign in SIGNS]
-        columns = {
-            "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
-            "input_angle": (np.tile(degrees, 2), "deg"),
-            "worst": (np.concatenate([one.worst for one in found]), "mm"),
-            "band": (np.concatenate([one.band for one in found]), "mm"),
-        }
+        both, columns = self._over_cycle(samples)
+        found = [budget(each, None, self.correlations) for each in both]
+        columns["worst"] = np.concatenate([one.worst for one in found]), "mm"
+        columns["band"] = np.concatenate([one.band for one in found]), "mm"
         return Table.of("cycle", columns)
 
     def table_sources(self, samples: int | None = None) -> Table:
         """What each source costs at its limit over the whole cycle, absolute, for either torque sign."""
-        degrees = self.cycle_degrees(samples)
-        both = [self.contributions(np.radians(degrees), sign) for sign in SIGNS]
-        columns = {
-            "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
-            "input_angle": (np.tile(degrees, 2), "deg"),
-        }
+        both, columns = self._over_cycle(samples)
         for pair in zip(*both, strict=True):
             columns[pair[0].source] = (np.concatenate([one.limit * np.abs(one.gain) for one in pair]), "mm")
         return Table.of("sources", columns)
+
+    def _over_cycle(self, samples: int | None) -> tuple[list[list[Contribution]], dict[str, tuple[Any, str]]]:
+        """Every source over the cycle, for either torque sign, and the first columns of a table of them."""
+        degrees = self.cycle_degrees(samples)
+        signs, inputs = np.repeat(np.array(SIGNS), degrees.size), np.tile(degrees, 2)
+        both = [self.contributions(np.radians(degrees), sign) for sign in SIGNS]
+        return both, {"torque_sign": (signs, "1"), "input_angle": (inputs, "deg")}
 
     # Checks
 

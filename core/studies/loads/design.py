@@ -91,6 +91,16 @@ def _of_counterweight(link: str, of: Callable[[complex], float]) -> Any:
     return property(value, doc=f"Of the counterweight of the {link}.")
 
 
+def _deflection(name: str) -> Any:
+    """A deflection of the output, of its vibration [deg or mm], in rad where the output turns; None without either."""
+
+    def value(design: LoadsDesign) -> float | None:
+        found = None if design.section.vibration is None else getattr(design.vibrating, name)
+        return found if found is None or design.output in design.sliding else math.radians(found)
+
+    return property(value, doc=f"`{name}` of the vibration.")
+
+
 class LoadsDesign(Design):
     """The loads of a design file that has the section; a subclass per machine says how its links move.
 
@@ -658,24 +668,9 @@ class LoadsDesign(Design):
     frequency_ratio: float | None = placed("_twisting.frequency_ratio")
     rise_periods: float | None = placed("_twisting.rise_periods")
 
-    @property
-    def residual_amplitude(self) -> float | None:
-        """Vibration that a motion leaves in the dwell after it [rad or mm]."""
-        return None if self._twisting is None else self._of_output(self._twisting.residual)
-
-    @property
-    def dwell_twist(self) -> float | None:
-        """Maximum deflection in the dwells in the steady state [rad or mm]."""
-        return None if self._twisting is None else self._of_output(self._twisting.twist)
-
-    @property
-    def twisted_ripple(self) -> float | None:
-        """Range of the output with its deflection in a dwell [rad or mm]."""
-        return None if self._twisting is None else self._of_output(self._twisting.twisted_ripple)
-
-    def _of_output(self, found: float | None) -> float | None:
-        """A deflection [deg or mm] in rad where the output turns."""
-        return found if found is None or self.output in self.sliding else math.radians(found)
+    residual_amplitude: float | None = _deflection("residual")
+    dwell_twist: float | None = _deflection("twist")
+    twisted_ripple: float | None = _deflection("twisted_ripple")
 
     @property
     def residual_speed_limit(self) -> float | None:
