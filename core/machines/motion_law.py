@@ -236,20 +236,9 @@ class MotionLawDesign(WithShapedLaws, Design):
 
     # Proof
 
-    @property
-    def lower_bound(self) -> float | None:
-        """What no law of the degree that keeps the limits lies below."""
-        return None if self.optimum is None else self.optimum.lower_bound
-
-    @property
-    def lower_bound_all_laws(self) -> float | None:
-        """What no law of any form lies below."""
-        return None if self.optimum is None else self.optimum.lower_bound_all_laws
-
-    @property
-    def gap(self) -> float | None:
-        """value/lower_bound - 1."""
-        return None if self.optimum is None else self.optimum.gap
+    lower_bound: float | None = placed("optimum.lower_bound")
+    lower_bound_all_laws: float | None = placed("optimum.lower_bound_all_laws")
+    gap: float | None = placed("optimum.gap")
 
     # Tables
 

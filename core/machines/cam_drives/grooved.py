@@ -375,11 +375,7 @@ class CamGear(Grooved):
             pair = pair_at(gears, (gears.sun, gears.planet), plain if gears.profile_shift is None else None)
             return data_of(gears, pair)
 
-    @property
-    def carrier_length(self) -> float:
-        """R, from the sun's axis to the planet's [mm]."""
-        return self.gear_data.pair.center_distance
-
+    carrier_length: float = placed("gear_data.pair.center_distance")
     contact_ratio: float = placed("gear_data.pair.contact_ratio")
 
     @property

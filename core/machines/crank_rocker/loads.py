@@ -40,11 +40,6 @@ class CrankRockerLoads(LoadsDesign):
             raise NoSolution(message, key=key, fix="omit range, with links whose crank turns")
         return found
 
-    @property
-    def transmission_angle(self) -> float:
-        """Minimum transmission angle over the turn [rad]."""
-        return self.design.min_transmission_angle
-
     def counterweights(self) -> dict[str, complex]:
         """Those of the full force balance."""
         return full_balance(self.design.linkage, self.masses)

@@ -592,10 +592,7 @@ class FunctionSynthesis(_Synthesis):
         assert self.spec.function is not None
         return [[math.radians(angle) for angle in pair] for pair in self.spec.function.pairs or ()]
 
-    @property
-    def structural_error(self) -> float | None:
-        """Maximum error of the rocker over the function's interval [rad]; None of given pairs."""
-        return None if self.generated is None else self.generated.error
+    structural_error: float | None = placed("generated.error")
 
     @property
     def structural_error_at(self) -> list[float] | None:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.design import Design, Found, NamesOfFile, Outline, UnknownName, in_unit
+from gearlink.core.base.design import Design, Found, NamesOfFile, Outline, UnknownName, in_unit, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Table
@@ -233,10 +233,7 @@ class Machine(OfMembers):
 
     # Timing
 
-    @property
-    def cycle_turns(self) -> int:
-        """Turns of the main shaft after which everything repeats."""
-        return self.members.turns
+    cycle_turns: int = placed("members.turns")
 
     def _ties(self, free: Collection[str]) -> list[Tie]:
         """The relations between events as ways between members, some of them with phases that are sought."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.polynomial import legendre
 
-from gearlink.core.base.design import Design, NamesOfFile, Outline
+from gearlink.core.base.design import Design, NamesOfFile, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way, down, either
@@ -421,10 +421,7 @@ class PlanarMechanism(Design):
         _ = self.course.at_start.closed
         return self.structure.freedoms
 
-    @property
-    def period_turns(self) -> int | None:
-        """Input turns until everything repeats; None over a range."""
-        return self.course.turns
+    period_turns: int | None = placed("course.turns")
 
     @property
     def grashof(self) -> list[str] | None:
@@ -532,15 +529,8 @@ class PlanarMechanism(Design):
         least = min(angle for angle, _ in angles)
         return least, min(place for angle, place in angles if angle <= least + 1e-10)
 
-    @property
-    def min_transmission_angle(self) -> float | None:
-        """Minimum transmission angle of all dyads over the period or range [rad]."""
-        return None if self._transmission is None else self._transmission[0]
-
-    @property
-    def min_transmission_angle_at(self) -> float | None:
-        """Its input [rad or mm]."""
-        return None if self._transmission is None else self._transmission[1]
+    min_transmission_angle: float | None = placed("_transmission.0")
+    min_transmission_angle_at: float | None = placed("_transmission.1")
 
     # Tables
 

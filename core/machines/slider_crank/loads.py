@@ -34,11 +34,6 @@ class SliderCrankLoads(LoadsDesign):
         """The slider, or the moving rack."""
         return "slider" if self.spec.racks is None else "rack"
 
-    @property
-    def transmission_angle(self) -> float:
-        """Minimum angle between the rod and the normal to the guide [rad]: cos mu = (r + |e|)/L."""
-        return self.design.min_transmission_angle
-
     def counterweights(self) -> dict[str, complex]:
         """One on the crank, for the rotating masses and a share of the reciprocating ones.
 
