@@ -44,7 +44,7 @@ def gears(
         str, typer.Option("--modules", metavar="M,M", help="normal modules, mm; default: ISO 54 series I from 1 to 20")
     ] = "",
     shift_sum: Annotated[
-        str, typer.Option("--shift-sum", metavar="MIN:MAX", help="x1 + x2, ISO signs; default: -0.5:1, rings -0.5:0.5")
+        str, typer.Option("--shift-sum", metavar="MIN:MAX", help="x1 + x2, ISO signs; default: -0.5:1, rings -1:0.5")
     ] = "",
     ratio_tolerance: Annotated[
         float, typer.Option("--ratio-tolerance", min=0.0, max=1.0, help="maximum relative error of the ratio")
@@ -156,6 +156,8 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
     if table.length > shown.length:
         print(f"{amount(table.length - shown.length, 'more pair')}: --all")
     if table.length:
+        if not options.quiet and table["margin"][0] < 0.0:  # those within come first
+            print("no pair is within all limits (margin < 0): widen --shift-sum", file=sys.stderr)
         return ExitCode.OK
     if not options.quiet:
         remedy = (
@@ -192,7 +194,7 @@ def _remedy(task: PairTask) -> str:
 
 def _window(text: str, internal: bool) -> tuple[float, float]:
     if not text:
-        return (-0.5, 0.5) if internal else (-0.5, 1.0)
+        return (-1.0, 0.5) if internal else (-0.5, 1.0)
     numbers = _numbers(text, ":", "--shift-sum")
     if len(numbers) != 2 or numbers[0] > numbers[1]:
         raise typer.BadParameter(

@@ -94,6 +94,14 @@ def test_a_ring_has_negative_teeth(gearlink: Any) -> None:
     assert all(row[1] < -row[0] for row in rows)
 
 
+def test_pairs_beyond_a_limit_come_last_and_are_said_to_be_alone(gearlink: Any) -> None:
+    """Rings want a negative sum of shifts: with full teeth their tips meet the roots of pinions otherwise."""
+    task = ("gears", "--ratio", 2.4, "--center-distance", 90, "--internal")
+    assert gearlink(*task).err == ""
+    ended = gearlink(*task, "--shift-sum", "-0.5:0.5")
+    assert (ended.status, ended.err) == (0, "no pair is within all limits (margin < 0): widen --shift-sum\n")
+
+
 def test_nothing_found_is_a_finding(gearlink: Any) -> None:
     ended = gearlink("gears", "--ratio", 3.2, "--center-distance", 1)
     assert ended.status == 1
