@@ -175,11 +175,11 @@ def study_of(design: Any) -> ToleranceStudy | None:
 
 def draw_tornado(design: Any) -> Figure:
     """A panel for each quantity of the study: its change with each source at its lower and its upper limit."""
-    from gearlink.core.studies.tolerance_study.effects import effects
+    from gearlink.core.studies.tolerance_study.samples import effects
 
     study = study_of(design)
     assert study is not None, "asked for only where there is one"
-    found, nominal = effects(study, list(study.problem.names))
+    found, nominal = effects(study.problem, list(study.problem.names))
     names = [name for name, rows in found.items() if _is_moved(rows, nominal[name])][:_MOST]
     bars = min(_MOST_BARS, len(study.problem.sources))
     made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + len(names) * (0.05 + 0.022 * bars))

@@ -5,13 +5,14 @@ Replications are shares of a study's work: each depends on the study's text and 
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from time import perf_counter
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -348,3 +349,39 @@ def columns_of(found: Sequence[Course]) -> tuple[tuple[str, ...], list[tuple[Any
             parts = (None if math.isnan(value) else float(value) for value in one.percentiles[:, i])
             rows.append((one.output, one.units[1], float(place), float(one.nominal[i]), *parts))
     return names, rows
+
+
+_AROUND = 24
+"""Directions in which the play of a pin is tried."""
+Effects: TypeAlias = dict[str, list[tuple[str, float, float]]]
+
+
+def effects(made: Problem, names: list[str]) -> tuple[Effects, dict[str, float]]:
+    """What each tolerance does by itself, all others nominal.
+
+    Returns
+        changes : by quantity, the widest first - the source, the change at its lower and at its upper limit
+        nominal : by quantity
+    Notes
+        The play of a pin acts in the direction of the smallest and of the largest value, of 24.
+    """
+    shifts: list[dict[str, complex]] = [{}]
+    owner: list[str] = [""]
+    for source in made.sources:
+        ends: list[complex] = [source.law.lower, source.law.upper] if source.kind != "pin" else [
+            cmath.rect(source.limit, 2.0 * cmath.pi * k / _AROUND) for k in range(_AROUND)
+        ]  # fmt: skip
+        for end in ends:
+            shifts.append({one.key: end if one.key == source.key else 0.0 for one in made.sources})
+            owner.append(source.key)
+    values = evaluated(made, made.offsets(shifts)).quantities
+    found: dict[str, list[tuple[str, float, float]]] = {}
+    for name in names:
+        change = np.asarray(values[name], dtype=float) - float(values[name][0])
+        rows = []
+        for source in made.sources:
+            own = change[[k for k, key in enumerate(owner) if key == source.key]]
+            low, high = (own[0], own[1]) if source.kind != "pin" else (float(np.nanmin(own)), float(np.nanmax(own)))
+            rows.append((source.key, float(low), float(high)))
+        found[name] = sorted(rows, key=lambda row: -max(abs(row[1]), abs(row[2])))
+    return found, {name: float(values[name][0]) for name in names}

@@ -28,7 +28,7 @@ from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism import vectors
-from gearlink.core.studies.tolerance_study.effects import effects
+from gearlink.core.studies.tolerance_study.samples import effects
 
 _STEP = 1e-4
 MOVING = [
@@ -373,7 +373,7 @@ def test_bars_of_a_tornado_are_designs_with_one_size_at_its_limit() -> None:
     made = design("slider_crank_tolerances")
     study = tolerance.study_of(made)
     assert study is not None
-    found, nominal = effects(study, ["stroke"])
+    found, nominal = effects(study.problem, ["stroke"])
     assert nominal["stroke"] == pytest.approx(made.quantity("stroke").value, rel=1e-12)
     for key, low, high in found["stroke"]:
         off = {"crank": 0.02, "rod": 0.03, "offset": 0.05}[key]
