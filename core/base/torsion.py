@@ -6,9 +6,8 @@ import math
 from typing import Annotated, TypeAlias
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Distance, Length, Spec
+from gearlink.core.base.spec import Distance, Length, Spec, refused
 
 SHEAR_MODULUS = 79300.0
 """Of steel [N/mm^2]."""
@@ -24,9 +23,8 @@ class ShaftPiece(Spec):
     @model_validator(mode="after")
     def _hollow(self) -> ShaftPiece:
         if self.bore >= self.diameter:
-            message = "bore {bore} mm is not below the diameter {diameter} mm\nset a smaller bore"
-            given = {"key": "bore", "bore": f"{self.bore:g}", "diameter": f"{self.diameter:g}"}
-            raise PydanticCustomError("GL111", message, given)
+            message = f"bore {self.bore:g} mm is not below the diameter {self.diameter:g} mm"
+            raise refused(f"{message}\nset a smaller bore", "bore")
         return self
 
     @property

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.remedies.ways import down, up
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table
 from gearlink.core.base.results import cached_property, keep
-from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec
+from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec, refused
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.courses import coordinate
 from gearlink.core.mechanism.joints import Connection, Contact, Guide
@@ -69,10 +68,9 @@ class CylindricalCamSpec(OfFollowerKeys, TolerancedSpec):
     @model_validator(mode="after")
     def _has_a_track(self) -> CylindricalCamSpec:
         if self.cam.depth >= self.cam.radius:
-            words = {"key": "cam.depth", "depth": f"{self.cam.depth:g}", "radius": f"{self.cam.radius:g}"}
-            raise PydanticCustomError(
-                "GL111", "depth: {depth} mm (limit < {radius} mm, radius)\nset cam.depth below {radius} mm", words
-            )
+            depth, radius = self.cam.depth, self.cam.radius
+            message = f"depth: {depth:g} mm (limit < {radius:g} mm, radius)\nset cam.depth below {radius:g} mm"
+            raise refused(message, "cam.depth")
         return self
 
 

@@ -8,7 +8,6 @@ from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     Assembly,
@@ -20,6 +19,7 @@ from gearlink.core.base.spec import (
     Spec,
     Speed,
     TolerancedSpec,
+    refused,
     unit,
 )
 from gearlink.core.machines.disc_cam.spec import (
@@ -39,10 +39,6 @@ ProfilePoint = Annotated[
 Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[130, 0]")]
 MOST_HARMONICS = 60
 _FEWEST = 5
-
-
-def _refused(key: str, message: str, fix: str = "") -> PydanticCustomError:
-    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key, **({"help": fix} if fix else {})})
 
 
 class OscillatingFollower(Spec):
@@ -76,19 +72,19 @@ class Profile(Spec):
     def _turn(self) -> Profile:
         if (self.points is None) == (self.file is None):
             given = self.points is not None
-            raise _refused("file" if given else "points", "give points or file" + (", not both" if given else ""))
+            raise refused("give points or file" + (", not both" if given else ""), "file" if given else "points")
         if self.points is None:
-            raise _refused("file", "the file is read with the design file\ngive points here")
+            raise refused("the file is read with the design file\ngive points here", "file")
         angles = [angle for angle, _ in self.points]
         for k, (before, after) in enumerate(pairwise(angles), 1):
             if after <= before:
-                raise _refused(f"points[{k}]", f"angles of a profile ascend: {after:.9g} deg follows {before:.9g} deg")
+                raise refused(f"angles of a profile ascend: {after:.9g} deg follows {before:.9g} deg", f"points[{k}]")
         if angles[-1] - angles[0] >= 360.0:
             message = f"angles of a profile: over {angles[-1] - angles[0]:.9g} deg (below 360 deg)"
-            raise _refused("points", message, "leave out the points that come again after a revolution")
+            raise refused(f"{message}\nleave out the points that come again after a revolution", "points")
         for k, (_, radius) in enumerate(self.points):
             if radius <= 0.0:
-                raise _refused(f"points[{k}]", f"radius of a profile: {radius:.9g} mm (above 0)")
+                raise refused(f"radius of a profile: {radius:.9g} mm (above 0)", f"points[{k}]")
         return self
 
 
@@ -120,11 +116,8 @@ class MeasuredCamSpec(TolerancedSpec):
     def _enough(self) -> MeasuredCamSpec:
         count, order = len(self.profile.points or ()), self.order
         if count < 2 * order + 1:
-            raise _refused(
-                "harmonics",
-                f"harmonics through {count} points: {order} (at most {(count - 1) // 2})",
-                "lower harmonics, or give more points",
-            )
+            message = f"harmonics through {count} points: {order} (at most {(count - 1) // 2})"
+            raise refused(f"{message}\nlower harmonics, or give more points", "harmonics")
         return self
 
     @property

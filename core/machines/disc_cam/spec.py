@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     Angle,
@@ -20,6 +19,7 @@ from gearlink.core.base.spec import (
     Spec,
     TolerancedSpec,
     also,
+    refused,
     unit,
 )
 from gearlink.core.parts.cams.contour_spec import CamProfile
@@ -31,10 +31,6 @@ Inertia = Annotated[float, unit("kg m^2", gt=0)]
 Reach = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[from, to]")]
 ROLLER_SHARE = 0.8
 """Of the minimum curvature radius of the pitch curve: the usual maximum roller."""
-
-
-def _refuse(key: str, message: str) -> PydanticCustomError:
-    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
 
 
 class Translating(Spec):
@@ -175,7 +171,7 @@ class Spring(Spec):
     def _one(self) -> Spring:
         if (self.preload is None) == (self.least_force is None):
             key = "preload" if self.preload is None else "least_force"
-            raise _refuse(key, "give preload, or least_force instead")
+            raise refused("give preload, or least_force instead", key)
         return self
 
 
@@ -206,7 +202,7 @@ class Servo(Spec):
     @model_validator(mode="after")
     def _one(self) -> Servo:
         if (self.rows is None) == (self.tolerance is None):
-            raise _refuse("rows" if self.rows is None else "tolerance", "give rows, or tolerance instead")
+            raise refused("give rows, or tolerance instead", "rows" if self.rows is None else "tolerance")
         return self
 
 
@@ -287,17 +283,17 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     def _runs(self) -> DiscCamSpec:
         if self.motion is not None:
             if self.profile is not None:
-                raise _refuse("profile", "profile makes the motion\nomit one of them")
+                raise refused("profile makes the motion\nomit one of them", "profile")
             require_closed(self.motion, self.initial_lift)
             return self
         if self.profile is None:
             message = "the key 'motion' is missing\ngive motion, a list of segments such as {to: 120, lift: 20, law: "
             message += "cycloidal}, or a table; or profile, such as {type: tangent}"
-            raise PydanticCustomError("GL106", "{message}", {"message": message, "key": "motion"})
+            raise refused(message, "motion", "GL106")
         if self.oscillates:
-            raise _refuse("profile", "profile goes with a follower that slides\ngive motion")
+            raise refused("profile goes with a follower that slides\ngive motion", "profile")
         if self.initial_lift:
-            raise _refuse("initial_lift", "a profile begins at lift 0\nomit initial_lift")
+            raise refused("a profile begins at lift 0\nomit initial_lift", "initial_lift")
         return self
 
     @model_validator(mode="after")
@@ -306,7 +302,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if self.profile is not None:
             for key in ("prime_radius", "base_radius", "size"):
                 if getattr(cam, key) is not None:
-                    raise _refuse(f"cam.{key}", f"profile has the radius of the cam\nomit cam.{key}")
+                    raise refused(f"profile has the radius of the cam\nomit cam.{key}", f"cam.{key}")
             return self
         wanted, other = ("prime_radius", "base_radius") if self.rolls else ("base_radius", "prime_radius")
         if (given := getattr(cam, other)) is not None:
@@ -317,11 +313,11 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
                     f"{other} goes with a flat face or an edge\n"
                     f"give cam.prime_radius: {whole:g} (with the roller's radius)"
                 )
-            raise _refuse(f"cam.{other}", message)
+            raise refused(message, f"cam.{other}")
         if (getattr(cam, wanted) is None) == (cam.size is None):
             both = cam.size is not None
             message = f"{wanted} and size exclude each other\ngive one of them; --set cam.size=null removes the size"
-            raise _refuse("cam", message if both else f"give cam.{wanted}, or cam.size")
+            raise refused(message if both else f"give cam.{wanted}, or cam.size", "cam")
         return self
 
     @model_validator(mode="after")
@@ -329,44 +325,44 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         size, follower = self.cam.size, self.follower
         if size is not None and self.is_flat:
             if size.curvature_radius is None:
-                raise _refuse("cam.size", "a flat face is sized by curvature_radius\ngive it")
+                raise refused("a flat face is sized by curvature_radius\ngive it", "cam.size")
             if size.pressure_angle is not None:
-                raise _refuse("cam.size", "a flat face is sized by curvature_radius alone\nomit pressure_angle")
+                raise refused("a flat face is sized by curvature_radius alone\nomit pressure_angle", "cam.size")
         if isinstance(follower, OnSlide):
             if follower.offset == "best":
                 if size is None:
-                    raise _refuse(
-                        "follower.offset", "offset: best goes with cam.size\ngive cam.size, or a number in mm"
+                    raise refused(
+                        "offset: best goes with cam.size\ngive cam.size, or a number in mm", "follower.offset"
                     )
             elif (most := self.radius) is not None and abs(follower.offset) >= most:
                 message = (
                     f"magnitude of the offset: {abs(follower.offset):g} mm (limit < {most:g} mm, {self.radius_key})"
                 )
                 message += f"\nset follower.offset within -{most:g} and {most:g} mm"
-                raise _refuse("follower.offset", message)
+                raise refused(message, "follower.offset")
         if isinstance(follower, OnRocker) and follower.center_distance is None and size is None:
-            raise _refuse("follower", "give follower.center_distance, or cam.size that finds the pivot")
+            raise refused("give follower.center_distance, or cam.size that finds the pivot", "follower")
         return self
 
     @model_validator(mode="after")
     def _closed(self) -> DiscCamSpec:
         roller = self.return_roller
         if not self.rolls and self.closure != "spring":
-            raise _refuse("closure", f"{self.closure} goes with a roller\nset closure to spring")
+            raise refused(f"{self.closure} goes with a roller\nset closure to spring", "closure")
         if (roller is not None) != (self.closure == "conjugate"):
             message = (
                 "give return_roller: {radius: ...}"
                 if roller is None
                 else "return_roller needs closure: conjugate\nset closure to conjugate, or omit return_roller"
             )
-            raise _refuse("closure" if roller is None else "return_roller", message)
+            raise refused(message, "closure" if roller is None else "return_roller")
         if roller is not None:
             own, foreign = (("arm", "angle"), ("distance",)) if self.oscillates else ((), ("arm", "angle"))
             for key in foreign:
                 if getattr(roller, key) is not None:
-                    raise _refuse(f"return_roller.{key}", f"this follower's return roller has no {key}\nomit it")
+                    raise refused(f"this follower's return roller has no {key}\nomit it", f"return_roller.{key}")
             if any(getattr(roller, key) is None for key in own):
-                raise _refuse("return_roller", "the return roller of a rocker has arm and angle\ngive both")
+                raise refused("the return roller of a rocker has arm and angle\ngive both", "return_roller")
         return self
 
     @model_validator(mode="after")
@@ -374,7 +370,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if not self.is_edge:
             return self
         if self.errors is not None and self.errors.roller_radius:
-            raise _refuse("errors.roller_radius", "roller_radius goes with a roller\nomit it")
+            raise refused("roller_radius goes with a roller\nomit it", "errors.roller_radius")
         material = None if self.loads is None else self.loads.material
         pressed = {
             "roller": None if self.loads is None else self.loads.roller,
@@ -385,7 +381,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
                 message = (
                     f"a knife edge has no contact pressure, its radius being 0\nomit loads.{key}, or take a roller"
                 )
-                raise _refuse(f"loads.{key}", message)
+                raise refused(message, f"loads.{key}")
         return self
 
     def pressure_limits(self) -> tuple[float, float]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     Angle,
@@ -18,6 +17,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     Teeth,
+    refused,
     unit,
 )
 from gearlink.core.parts.gears.train.keys import TrainKeys
@@ -175,24 +175,20 @@ class FiveBarTarget(Spec):
     def _one_target(self) -> FiveBarTarget:
         given = [name for name in ("poses", "points", "positions", "function") if getattr(self, name) is not None]
         if len(given) > 1:
-            message = "{one} and {other} exclude each other\nomit {one} or {other}"
-            raise PydanticCustomError("GL111", message, {"key": given[1], "one": given[0], "other": given[1]})
+            message = f"{given[0]} and {given[1]} exclude each other\nomit {given[0]} or {given[1]}"
+            raise refused(message, given[1])
         if self.poses is not None and self.tolerance is None and len(self.poses) > (exact := _EXACT_POSES[self.frame]):
-            message = "with a {frame} frame at most {exact} poses are met exactly\ngive tolerance for {count}"
-            words = {"key": "poses", "frame": self.frame, "exact": str(exact), "count": str(len(self.poses))}
-            raise PydanticCustomError("GL111", message, words)
+            message = f"with a {self.frame} frame at most {exact} poses are met exactly"
+            raise refused(f"{message}\ngive tolerance for {len(self.poses)}", "poses")
         timed = self.input_angles is not None
         if timed and len(self.points or ()) != len(self.input_angles or ()):
-            message = "give an input angle for each point: {angles} for {points}"
-            words = {"angles": str(len(self.input_angles or ())), "points": str(len(self.points or ()))}
-            raise PydanticCustomError("GL111", message, {"key": "input_angles", **words})
+            counts = f"{len(self.input_angles or ())} for {len(self.points or ())}"
+            raise refused(f"give an input angle for each point: {counts}", "input_angles")
         if self.input_angles is not None and self.input_angles[0] != 0.0:
-            raise PydanticCustomError(
-                "GL108", "input angles count from the first point's, 0", {"key": "input_angles[0]"}
-            )
+            raise refused("input angles count from the first point's, 0", "input_angles[0]", "GL108")
         if self.budget is not None and not timed and (self.function is None or self.function.links == "given"):
             message = "budget goes with a function whose links are sought, or with timed points\nomit it"
-            raise PydanticCustomError("GL111", message, {"key": "budget"})
+            raise refused(message, "budget")
         return self
 
 
@@ -222,9 +218,7 @@ class GearedFiveBarSpec(DrivenSpec):
             section, _, name = key.partition(".")
             value = getattr(self, section)
             if (getattr(value, name) if name else value) is None:
-                raise PydanticCustomError("GL106", "the form {form} needs {needed}", {
-                    "key": key, "form": self.form, "needed": needed,
-                })  # fmt: skip
+                raise refused(f"the form {self.form} needs {needed}", key, "GL106")  # fmt: skip
         _refuse(self.gears.idler is None and self.shafts is not None and self.shafts.O_radius is not None,
                 "shafts.O_radius", "O_radius goes with an idler\ngive gears.idler, or omit it")  # fmt: skip
         if self.form == "path":
@@ -283,4 +277,4 @@ _NEEDED = {
 
 def _refuse(wrong: bool, key: str, message: str) -> None:
     if wrong:
-        raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})
+        raise refused(message, key)

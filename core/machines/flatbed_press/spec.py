@@ -6,7 +6,6 @@ from math import cos, radians
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
@@ -25,6 +24,7 @@ from gearlink.core.base.spec import (
     Teeth,
     TolerancedSpec,
     also,
+    refused,
     require_offset_below_rod,
     require_stroke_or_crank,
     unit,
@@ -80,8 +80,10 @@ class Cylinder(Spec):
     @model_validator(mode="after")
     def _same_ratio(self) -> Cylinder:
         if self.gears is not None and "gear_ratio" in self.model_fields_set and self.gear_ratio != self.ratio:
-            message = "the teeth of gears 3 and 4 make a ratio of {ratio}\nomit gear_ratio, or change the teeth"
-            raise PydanticCustomError("GL111", message, {"key": "gear_ratio", "ratio": f"{self.ratio:.9g}"})
+            message = (
+                f"the teeth of gears 3 and 4 make a ratio of {self.ratio:.9g}\nomit gear_ratio, or change the teeth"
+            )
+            raise refused(message, "gear_ratio")
         return self
 
 
@@ -115,7 +117,7 @@ class Bed(Spec):
         require_offset_below_rod(self.rod, self.offset, "offset")
         if self.rack_teeth is not None and self.pinion is None:
             message = "rack_teeth goes with pinion: {module, teeth}"
-            raise PydanticCustomError("GL106", "{message}", {"key": "pinion", "message": message})
+            raise refused(message, "pinion", "GL106")
         return self
 
 
@@ -156,10 +158,10 @@ class PressCam(Spec):
         if self.transition_end is None and self.transition_angle is None:
             message = "either transition_end or transition_angle is needed"
             message += "\ngive transition_angle, the cam angle from the end of the zone to the maximum lift"
-            raise PydanticCustomError("GL106", "{message}", {"key": "transition_end", "message": message})
+            raise refused(message, "transition_end", "GL106")
         if self.transition_end is not None and self.transition_angle is not None:
             message = "transition_end and transition_angle exclude each other\nomit transition_end or transition_angle"
-            raise PydanticCustomError("GL111", message, {"key": "transition_angle"})
+            raise refused(message, "transition_angle")
         return self
 
 
@@ -208,9 +210,8 @@ class FlatbedPressSpec(TolerancedSpec):
             keys, z = teeth
             found = 0.5 * keys.module * z / cos(radians(keys.helix_angle))
             if keys.profile_shift is None and abs(given - found) > 1e-9 * found:
-                message = "the teeth make a radius of {found} mm\nomit {last}, or give the same"
-                words = {"key": f"loads.{key}", "found": f"{found:.9g}", "last": key}
-                raise PydanticCustomError("GL111", message, words)
+                message = f"the teeth make a radius of {found:.9g} mm\nomit {key}, or give the same"
+                raise refused(message, f"loads.{key}")
         return self
 
     @property

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 
@@ -58,13 +57,9 @@ class GearedRockerSpec(DrivenSpec):
     @model_validator(mode="after")
     def _crank_or_swing(self) -> GearedRockerSpec:
         if self.links.crank is None and self.target is None:
-            raise PydanticCustomError(
-                "GL106", "give links.crank, or target.swing from which it is found", {"key": "links.crank"}
-            )
+            raise refused("give links.crank, or target.swing from which it is found", "links.crank", "GL106")
         if self.links.crank is not None and self.target is not None:
-            raise PydanticCustomError(
-                "GL111",
-                "links.crank and target.swing exclude each other\nleave the crank out to have it found",
-                {"key": "links.crank"},
+            raise refused(
+                "links.crank and target.swing exclude each other\nleave the crank out to have it found", "links.crank"
             )
         return self

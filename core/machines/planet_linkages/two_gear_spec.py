@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
@@ -36,15 +35,12 @@ class PlanetGears(TrainKeys):
     @model_validator(mode="after")
     def _one_output(self) -> PlanetGears:
         if self.sun is None and self.ring is None:
-            raise PydanticCustomError("GL106", "give sun or ring, the output gear on A", {"key": "sun"})
+            raise refused("give sun or ring, the output gear on A", "sun", "GL106")
         if self.sun is not None and self.ring is not None:
-            raise PydanticCustomError("GL111", "sun and ring exclude each other\nomit sun or ring", {"key": "ring"})
+            raise refused("sun and ring exclude each other\nomit sun or ring", "ring")
         if self.ring is not None and self.ring <= self.planet:
-            raise PydanticCustomError(
-                "GL111",
-                "a ring gear of {ring} teeth does not take a planet of {planet}\nset gears.ring above {planet}",
-                {"key": "ring", "ring": str(self.ring), "planet": str(self.planet)},
-            )
+            message = f"a ring gear of {self.ring} teeth does not take a planet of {self.planet}"
+            raise refused(f"{message}\nset gears.ring above {self.planet}", "ring")
         require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)
         return self
 
@@ -64,9 +60,9 @@ class StandingDwell(DwellBand):
     @model_validator(mode="after")
     def _one_request(self) -> StandingDwell:
         if self.window is None and self.tolerance is None:
-            raise PydanticCustomError("GL106", "give window, tolerance or both", {"key": "tolerance"})
+            raise refused("give window, tolerance or both", "tolerance", "GL106")
         if self.margin is not None and self.window is not None:
-            raise PydanticCustomError("GL111", "margin goes with tolerance alone\nomit it", {"key": "margin"})
+            raise refused("margin goes with tolerance alone\nomit it", "margin")
         return self
 
 
@@ -115,29 +111,27 @@ class TwoGearFourBarSpec(DrivenSpec):
         syntheses = self._syntheses()
         if self.links.frame is None and not syntheses:
             message = "give frame, or have it sought\ngive dwell, back_step, or target with motion: momentary-dwell"
-            raise PydanticCustomError("GL106", message, {"key": "links.frame"})
+            raise refused(message, "links.frame", "GL106")
         sections = [name for name in ("dwell", "back_step") if getattr(self, name) is not None]
         if self.links.frame is not None and sections:
-            message = "links.frame is what {section} has sought\nomit one of them"
-            raise PydanticCustomError("GL111", message, {"key": "links.frame", "section": sections[0]})
+            message = f"links.frame is what {sections[0]} has sought\nomit one of them"
+            raise refused(message, "links.frame")
         return self
 
     @model_validator(mode="after")
     def _one_tolerance(self) -> TwoGearFourBarSpec:
         if self.dwell_tolerance is not None and self.dwell is not None:
             message = "dwell_tolerance measures links that are given, dwell has the frame sought\nomit one of them"
-            raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+            raise refused(message, "dwell_tolerance")
         if self.dwell_window is not None and self.dwell_tolerance is None:
-            raise PydanticCustomError(
-                "GL111", "dwell_window goes with dwell_tolerance\ngive that too", {"key": "dwell_window"}
-            )
+            raise refused("dwell_window goes with dwell_tolerance\ngive that too", "dwell_window")
         return self
 
     @model_validator(mode="after")
     def _lay_has_a_speed(self) -> TwoGearFourBarSpec:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None:
             message = "the speed at the lay needs the speed of the input\ngive input_speed"
-            raise PydanticCustomError("GL106", message, {"key": "input_speed"})
+            raise refused(message, "input_speed", "GL106")
         return self
 
     def _syntheses(self) -> tuple[str, ...]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, Spec, unit
+from gearlink.core.base.spec import Length, Spec, refused, unit
 from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 
 
@@ -25,7 +24,7 @@ class Placing(Spec):
         given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
         if len(given) > 1:
             message = "crank, frame and balanced exclude each other\nkeep one of them"
-            raise PydanticCustomError("GL111", message, {"key": given[1]})
+            raise refused(message, given[1])
         return self
 
 
@@ -41,11 +40,11 @@ class Dwell(DwellBand, Placing):
     @model_validator(mode="after")
     def _one_request(self) -> Dwell:
         if self.angle is None and self.window is None and self.tolerance is None:
-            raise PydanticCustomError("GL106", "give angle, window or tolerance", {"key": "angle"})
+            raise refused("give angle, window or tolerance", "angle", "GL106")
         if self.angle is not None and (self.window is not None or self.tolerance is not None):
             message = "angle excludes window and tolerance: it specifies another dwell"
-            raise PydanticCustomError("GL111", message, {"key": "window" if self.window is not None else "tolerance"})
+            raise refused(message, "window" if self.window is not None else "tolerance")
         if self.margin is not None and (self.window is not None or self.tolerance is None):
             message = "margin goes with tolerance alone\nomit it"
-            raise PydanticCustomError("GL111", message, {"key": "margin"})
+            raise refused(message, "margin")
         return self

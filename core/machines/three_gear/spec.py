@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.real_speed import other_speed
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, unit
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
 
 
 def _some_teeth(teeth: int) -> int:
     if teeth == 0:
-        raise PydanticCustomError("GL108", "teeth must be 1 or more, or -1 or less for a ring gear, not 0")
+        raise refused("teeth must be 1 or more, or -1 or less for a ring gear, not 0", "", "GL108")
     return teeth
 
 
@@ -49,14 +48,11 @@ class Gears(TrainKeys):
     def _rings_are_larger(self) -> Gears:
         for key, teeth in (("crank", self.crank), ("output", self.output)):
             if teeth < 0 and self.idler is not None and -teeth <= self.idler:
-                message = (
-                    "a ring gear of {ring} teeth does not take an idler of {idler}\nset gears.{key} below -{idler}"
-                )
-                words = {"key": key, "ring": str(-teeth), "idler": str(self.idler)}
-                raise PydanticCustomError("GL111", message, words)
+                message = f"a ring gear of {-teeth} teeth does not take an idler of {self.idler}"
+                raise refused(f"{message}\nset gears.{key} below -{self.idler}", key)
         if self.i3 is not None and min(self.crank, self.output) < 0:
             message = "i3 goes with external gears\ngive idler instead of i3"
-            raise PydanticCustomError("GL111", message, {"key": "i3"})
+            raise refused(message, "i3")
         ring = -self.output if self.output < 0 else None
         require_rim(self.rim, ring, self.module, own_teeth=self.own_teeth)
         return self
@@ -64,10 +60,12 @@ class Gears(TrainKeys):
     @model_validator(mode="after")
     def _one_ratio(self) -> Gears:
         if self.i3 is not None and self.idler is not None:
-            raise PydanticCustomError("GL111", "i3 and idler exclude each other\nomit i3 or idler", {"key": "i3"})
+            raise refused("i3 and idler exclude each other\nomit i3 or idler", "i3")
         if self.i3 is not None and self.crank != self.output:
-            message = "i3 goes with equal crank and output teeth\nset output to {crank}, or give idler instead of i3"
-            raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
+            message = (
+                f"i3 goes with equal crank and output teeth\nset output to {self.crank}, or give idler instead of i3"
+            )
+            raise refused(message, "output")
         return self
 
 
@@ -126,24 +124,23 @@ class ThreeGearSpec(DrivenSpec):
     @model_validator(mode="after")
     def _one_tolerance(self) -> ThreeGearSpec:
         if self.dwell_tolerance is not None and self.dwell_backlash is not None:
-            raise PydanticCustomError(
-                "GL111",
+            raise refused(
                 "dwell_tolerance and dwell_backlash exclude each other\nomit dwell_tolerance or dwell_backlash",
-                {"key": "dwell_backlash"},
+                "dwell_backlash",
             )
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
             message = "dwell_tolerance and dwell.tolerance specify the same\nomit dwell_tolerance or dwell.tolerance"
-            raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+            raise refused(message, "dwell_tolerance")
         if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
             message = "dwell_window goes with dwell_tolerance or dwell_backlash\nadd dwell_tolerance or dwell_backlash"
-            raise PydanticCustomError("GL111", message, {"key": "dwell_window"})
+            raise refused(message, "dwell_window")
         return self
 
     @model_validator(mode="after")
     def _lay_has_a_speed(self) -> ThreeGearSpec:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None and self.speed is None:
             message = "the speed at the lay needs the input's\ngive input_speed"
-            raise PydanticCustomError("GL106", message, {"key": "input_speed"})
+            raise refused(message, "input_speed", "GL106")
         return self
 
     @model_validator(mode="after")
@@ -157,7 +154,7 @@ class ThreeGearSpec(DrivenSpec):
         ):
             return self
         if wrong := other_speed(self.input_speed, 0.5 * (self.speed.min + self.speed.max)):
-            raise PydanticCustomError("GL111", "{wrong}", {"key": "input_speed", "wrong": wrong})
+            raise refused(wrong, "input_speed")
         return self
 
     def syntheses(self) -> tuple[str, ...]:

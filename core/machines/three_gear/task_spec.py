@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, SignedLength, Spec, unit
+from gearlink.core.base.spec import Length, SignedLength, Spec, refused, unit
 from gearlink.core.machines.three_gear.dwell_spec import Placing
 
 
@@ -22,7 +21,7 @@ class BackStep(Placing):
     @model_validator(mode="after")
     def _something(self) -> BackStep:
         if self.angle is None and self.crank_angle is None:
-            raise PydanticCustomError("GL106", "give angle, crank_angle or both", {"key": "angle"})
+            raise refused("give angle, crank_angle or both", "angle", "GL106")
         return self
 
 
@@ -44,11 +43,11 @@ class Speed(Placing):
         even = [name for name in ("uniform_angle", "uniform_tolerance") if getattr(self, name) is not None]
         if band and even:
             message = "uniform_angle and uniform_tolerance replace min and max\nomit min and max, or the other two"
-            raise PydanticCustomError("GL111", message, {"key": even[0]})
+            raise refused(message, even[0])
         pair = ("uniform_angle", "uniform_tolerance") if even else ("min", "max")
         missing = [name for name in pair if getattr(self, name) is None]
         if missing:
-            raise PydanticCustomError("GL106", "{key} is missing", {"key": missing[0]})
+            raise refused(f"{missing[0]} is missing", missing[0], "GL106")
         return self
 
 
@@ -68,10 +67,10 @@ class Momentary(Spec):
     def _one_length(self) -> Momentary:
         given = [name for name in ("eccentricity", "frame", "gap", "balanced") if getattr(self, name) is not None]
         if not given:
-            raise PydanticCustomError("GL106", "give eccentricity, frame, gap or balanced", {"key": "eccentricity"})
+            raise refused("give eccentricity, frame, gap or balanced", "eccentricity", "GL106")
         if len(given) > 1:
             message = "eccentricity, frame, gap and balanced exclude each other\nkeep one of them"
-            raise PydanticCustomError("GL111", message, {"key": given[1]})
+            raise refused(message, given[1])
         return self
 
 

@@ -5,16 +5,11 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, SignedLength, Spec, also, unit
+from gearlink.core.base.spec import Length, SignedLength, Spec, also, refused, unit
 
 ActionAngle = Annotated[float, unit("deg", gt=0, le=360)]
 ArcAngle = Annotated[float, unit("deg", gt=0, lt=180)]
-
-
-def _refused(key: str, message: str) -> PydanticCustomError:
-    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
 
 
 class _Lobe(Spec):
@@ -46,7 +41,7 @@ class _Lobe(Spec):
             missing = len(given) < self.wanted
             message = f"sizes of the profile: {len(given)} of {names} (required {self.wanted})"
             message += f"\n{'give' if missing else 'keep'} {count} of them, the others follow"
-            raise _refused("type" if missing else given[-1], message)
+            raise refused(message, "type" if missing else given[-1])
         return self
 
 
@@ -74,20 +69,20 @@ class CircularArcProfile(_Lobe):
     def _of_flanks(self) -> Self:
         if set(self.given()) == {"nose_radius", "nose_distance", "lift"}:
             message = "nose_radius, nose_distance and lift tell nothing of the flanks: two of them give the third"
-            raise _refused("lift", f"{message}\ngive action_angle or flank_radius instead of lift")
+            raise refused(f"{message}\ngive action_angle or flank_radius instead of lift", "lift")
         return self
 
     @model_validator(mode="after")
     def _of_action(self) -> Self:
         if self.flank_angle is not None:
             if self.action_angle is None:
-                raise _refused("flank_angle", "flank_angle goes with action_angle\ngive action_angle")
+                raise refused("flank_angle goes with action_angle\ngive action_angle", "flank_angle")
             if self.flank_angle >= 0.5 * self.action_angle:
                 most = 0.5 * self.action_angle
                 message = f"flank_angle: {self.flank_angle:g} deg (limit < {most:g} deg, half the action_angle)"
-                raise _refused("flank_angle", f"{message}\nset profile.flank_angle below {most:g} deg")
+                raise refused(f"{message}\nset profile.flank_angle below {most:g} deg", "flank_angle")
         if self.flank_radius == 0.0:
-            raise _refused("flank_radius", "flank_radius: 0 mm (any other)\nfor straight flanks set type: tangent")
+            raise refused("flank_radius: 0 mm (any other)\nfor straight flanks set type: tangent", "flank_radius")
         return self
 
 
@@ -102,7 +97,7 @@ class EccentricProfile(Spec):
     def _around(self) -> Self:
         if self.eccentricity >= self.radius:
             message = f"eccentricity: {self.eccentricity:g} mm (limit < {self.radius:g} mm, radius)"
-            raise _refused("eccentricity", f"{message}\nset profile.eccentricity below {self.radius:g} mm")
+            raise refused(f"{message}\nset profile.eccentricity below {self.radius:g} mm", "eccentricity")
         return self
 
     @property

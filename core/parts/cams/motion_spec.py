@@ -6,9 +6,8 @@ from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, OfFollower, Spec, Speed, unit
+from gearlink.core.base.spec import Entries, OfFollower, Spec, Speed, refused, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.spec import SegmentLaw
 
@@ -39,11 +38,11 @@ class Segment(Spec):
             for key in ("lift", "law"):
                 if getattr(self, key) is not None:
                     message = "return: mirrored takes lift and law from the rise\nomit them"
-                    raise PydanticCustomError("GL111", message, {"key": key})
+                    raise refused(message, key)
         if self.law != "polynomial":
             for key in ("end_velocity", "end_acceleration"):
                 if getattr(self, key) is not None:
-                    raise PydanticCustomError("GL111", "only law: polynomial takes end values", {"key": key})
+                    raise refused("only law: polynomial takes end values", key)
         return self
 
 
@@ -70,12 +69,10 @@ class FromFile(Spec):
     def _one(self) -> Self:
         if (self.table is None) == (self.file is None):
             message = "table and file exclude each other\nomit table or file" if self.file else "give table, or file"
-            raise PydanticCustomError(
-                "GL111", "{message}", {"message": message, "key": "file" if self.file else "table"}
-            )
+            raise refused(message, "file" if self.file else "table")
         if self.table is None:
             message = "the file is read with the design file\ngive a table here"
-            raise PydanticCustomError("GL111", "{message}", {"message": message, "key": "file"})
+            raise refused(message, "file")
         return self
 
 
@@ -121,30 +118,30 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
     ends = [segment.to for segment in motion]
     for before, after in pairwise(ends):
         if after <= before:
-            raise _refused(
-                f"the segments must ascend: one ends at {unlike(after, before)} deg, after {unlike(before, after)} deg"
+            raise refused(
+                f"the segments must ascend: one ends at {unlike(after, before)} deg, after {unlike(before, after)} deg",
+                "motion",
             )
     if ends[-1] != 360.0:
-        raise _refused(f"end of the last segment: {unlike(ends[-1], 360.0)} deg (required 360 deg)\nset its to: 360")
+        raise refused(
+            f"end of the last segment: {unlike(ends[-1], 360.0)} deg (required 360 deg)\nset its to: 360", "motion"
+        )
     if motion[-1].return_ is None:
         last = next((each.lift for each in reversed(motion) if each.lift is not None), initial_lift)
         if any(each.return_ for each in motion):
             return  # the lift after a mirrored rise is known with the laws
         if last != initial_lift:
-            raise _refused(
+            raise refused(
                 f"the lift ends at {unlike(last, initial_lift)} and starts at {unlike(initial_lift, last)}\nadd a "
-                "segment that returns"
+                "segment that returns",
+                "motion",
             )
 
 
 def _require_table(rows: list[list[float]]) -> None:
     if any(after[0] <= before[0] for before, after in pairwise(rows)):
-        raise _refused("the cam angles of a table must ascend")
+        raise refused("the cam angles of a table must ascend", "motion")
     if rows[0][0] != 0.0 or rows[-1][0] != 360.0:
-        raise _refused("a table runs from cam angle 0 to 360")
+        raise refused("a table runs from cam angle 0 to 360", "motion")
     if rows[0][1] != rows[-1][1]:
-        raise _refused("a table ends with the lift that it starts with")
-
-
-def _refused(message: str) -> PydanticCustomError:
-    return PydanticCustomError("GL111", "{message}", {"message": message, "key": "motion"})
+        raise refused("a table ends with the lift that it starts with", "motion")

@@ -9,10 +9,9 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import AfterValidator, Field
-from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import at_key
-from gearlink.core.base.spec import Entries, Spec, unit
+from gearlink.core.base.spec import Entries, Spec, refused, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.motion_spec import FEWEST_POINTS, FromFile, Segment
 from gearlink.core.parts.cams.spec import SegmentLaw
@@ -60,21 +59,17 @@ def _whole_turns(motion: list[OutputSegment] | OutputTable) -> list[OutputSegmen
         ends = [segment.to for segment in motion]
         first, gained = 0.0, next((each.output for each in reversed(motion) if each.output is not None), 0.0)
     if any(after <= before for before, after in pairwise(ends)):
-        raise _refused("the input angles of the motion must ascend")
+        raise refused("the input angles of the motion must ascend")
     if first != 0.0 or ends[-1] != 360.0:
-        raise _refused(f"end of the last segment: input angle {unlike(ends[-1], 360.0)} deg (required 360 deg)")
+        raise refused(f"end of the last segment: input angle {unlike(ends[-1], 360.0)} deg (required 360 deg)")
     if abs(gained - 360.0 * round(gained / 360.0)) > _FIT:
-        raise _refused(f"end of the output: {gained:.6g} deg (required whole revolutions, such as 0 or 360 deg)")
+        raise refused(f"end of the output: {gained:.6g} deg (required whole revolutions, such as 0 or 360 deg)")
     return motion
 
 
 OutputLaw = Annotated[
     Annotated[list[OutputSegment], Field(min_length=1, max_length=200)] | OutputTable, AfterValidator(_whole_turns)
 ]
-
-
-def _refused(message: str) -> PydanticCustomError:
-    return PydanticCustomError("GL111", "{message}", {"message": message})
 
 
 class OutputMotion:

@@ -6,9 +6,8 @@ from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, Spec, unit
+from gearlink.core.base.spec import Entries, Spec, refused, unit
 from gearlink.core.base.wording import short, unlike
 
 PLAIN = {"unit": "1"}
@@ -21,10 +20,6 @@ Rate = Annotated[float, Field(gt=0, le=1e7, json_schema_extra=PLAIN)]
 Coefficients = Annotated[
     list[Number], Field(min_length=3, max_length=4), Entries("[s, v, a] or [s, v, a, j]", "[1, 0.8, 0]")
 ]
-
-
-def _refused(key: str, message: str) -> PydanticCustomError:
-    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
 
 
 class EndInFile(Spec):
@@ -59,7 +54,7 @@ class PolynomialEnds(_WithEnds):
     def _alike(self) -> PolynomialEnds:
         start, end = self.start, self.end
         if isinstance(start, list) and isinstance(end, list) and len(start) != len(end):
-            raise _refused("end", "start and end have as many values each: 3, or 4 with the jerk")
+            raise refused("start and end have as many values each: 3, or 4 with the jerk", "end")
         return self
 
 
@@ -72,7 +67,7 @@ class HarmonicEnds(_WithEnds):
     def _three(self) -> HarmonicEnds:
         for key in ("start", "end"):
             if isinstance(value := getattr(self, key), list) and len(value) != 3:
-                raise _refused(key, "a harmonic law has s, v and a at its ends: three values")
+                raise refused("a harmonic law has s, v and a at its ends: three values", key)
         return self
 
 
@@ -88,9 +83,9 @@ class Polydyne(Spec):
     @model_validator(mode="after")
     def _one(self) -> Polydyne:
         if self.periods is not None and self.frequency is not None:
-            raise _refused("frequency", "periods and frequency say the same\nomit periods or frequency")
+            raise refused("periods and frequency say the same\nomit periods or frequency", "frequency")
         if self.periods is not None and self.speed is not None:
-            raise _refused("speed", "speed goes with frequency; periods need none")
+            raise refused("speed goes with frequency; periods need none", "speed")
         return self
 
 
@@ -125,18 +120,18 @@ class OptimalLaw(Spec):
     @model_validator(mode="after")
     def _meaning(self) -> OptimalLaw:
         if (self.band is None) != (self.minimize != "residual"):
-            raise _refused("band", "minimize: residual needs band, and nothing else has one")
+            raise refused("minimize: residual needs band, and nothing else has one", "band")
         if self.band is not None and self.band[0] >= self.band[1]:
-            raise _refused("band", f"the band runs from {self.band[0]:g} to {self.band[1]:g}\nlet it ascend")
+            raise refused(f"the band runs from {self.band[0]:g} to {self.band[1]:g}\nlet it ascend", "band")
         if self.minimize in self.KEYS and getattr(self, self.minimize) is not None:
-            raise _refused(self.minimize, f"{self.minimize} is what is minimized\nomit its limit")
+            raise refused(f"{self.minimize} is what is minimized\nomit its limit", self.minimize)
         for key in self.KEYS if self.limit is not None else ():
             if getattr(self.limit, key) is not None and (getattr(self, key) is not None or key == self.minimize):
-                raise _refused(f"limit.{key}", f"{key} has another limit, or is minimized\nomit this one")
+                raise refused(f"{key} has another limit, or is minimized\nomit this one", f"limit.{key}")
         places = [at for at in (self, self.limit) if at is not None]
         bounded = any(getattr(at, key) is not None for at in places for key in ("acceleration", "jerk"))
         if self.minimize == "residual" and not bounded:
-            raise _refused("acceleration", "minimize: residual needs a limit\nadd acceleration or jerk")
+            raise refused("minimize: residual needs a limit\nadd acceleration or jerk", "acceleration")
         return self
 
 
@@ -169,23 +164,23 @@ class TableLaw(Spec):
     @model_validator(mode="after")
     def _ascends(self) -> TableLaw:
         if self.points is not None and self.file is not None:
-            raise _refused("file", "points and file exclude each other\nomit points or file")
+            raise refused("points and file exclude each other\nomit points or file", "file")
         if self.points is None:
-            raise _refused("points", "a table law needs points, or file")
+            raise refused("a table law needs points, or file", "points")
         if len(self.points) < FEWEST_POINTS:
-            raise _refused("points", f"points of a table law: {len(self.points)} (at least {FEWEST_POINTS})")
+            raise refused(f"points of a table law: {len(self.points)} (at least {FEWEST_POINTS})", "points")
         x = [place for place, _ in self.points]
         if x[0] != 0.0 or x[-1] != 1.0:
-            raise _refused(
-                "points", f"x of a table law runs from 0 to 1, not from {unlike(x[0], 0.0)} to {unlike(x[-1], 1.0)}"
+            raise refused(
+                f"x of a table law runs from 0 to 1, not from {unlike(x[0], 0.0)} to {unlike(x[-1], 1.0)}", "points"
             )
         for k, (before, after) in enumerate(pairwise(x), 1):
             if after <= before:
-                raise _refused(
-                    f"points[{k}]", f"x of a table law ascends: {unlike(after, before)} follows {unlike(before, after)}"
+                raise refused(
+                    f"x of a table law ascends: {unlike(after, before)} follows {unlike(before, after)}", f"points[{k}]"
                 )
         if self.points[0][1] != 0.0:
-            raise _refused("points[0]", f"the first s of a table law is 0, not {short(self.points[0][1])}")
+            raise refused(f"the first s of a table law is 0, not {short(self.points[0][1])}", "points[0]")
         return self
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, Spec, unit
+from gearlink.core.base.spec import Entries, Spec, refused, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.gears.keys.types import AccuracyGrade, Stress
 from gearlink.core.parts.gears.rating.conditions import Conditions, Modification, Point, Shaft, System
@@ -27,7 +26,7 @@ def _a_material(name: str) -> str:
     meant = f"did you mean {near[0]}? " if near else ""
     others = "another steel by the class of its heat treatment"
     help = f"{meant}steels: {', '.join(STEELS)}; {others}: {', '.join(CLASSES)}"
-    raise PydanticCustomError("GL108", "no material is called {name}\n{help}", {"name": repr(name), "help": help})
+    raise refused(f"no material is called {name!r}\n{help}", code="GL108")
 
 
 MaterialName = Annotated[str, AfterValidator(_a_material), Field(json_schema_extra={"enum": list(MATERIALS)})]
@@ -76,18 +75,18 @@ class LubricantSpec(Spec):
     @model_validator(mode="after")
     def _whole(self) -> Self:
         if self.vg is None and self.viscosity_40 is None:
-            raise PydanticCustomError("GL106", "give vg or viscosity_40, the viscosity at 40 deg C", {"key": "vg"})
+            raise refused("give vg or viscosity_40, the viscosity at 40 deg C", "vg", "GL106")
         if self.vg is not None and self.viscosity_40 is not None:
             message = "vg and viscosity_40 exclude each other\nomit vg or viscosity_40"
-            raise PydanticCustomError("GL111", message, {"key": "viscosity_40"})
+            raise refused(message, "viscosity_40")
         names = ("viscosity_100", "temperature", "scuffing_stage")
         missing = [name for name in names if getattr(self, name) is None]
         if missing and len(missing) < len(names):
             message = f"scuffing needs {', '.join(names)} together: {missing[0]} is missing"
-            raise PydanticCustomError("GL106", message, {"key": missing[0]})
+            raise refused(message, missing[0], "GL106")
         if self.viscosity_100 is not None and self.viscosity_100 >= self.at_40:
             message = "the oil is not thinner at 100 deg C than at 40\nlower viscosity_100"
-            raise PydanticCustomError("GL111", message, {"key": "viscosity_100"})
+            raise refused(message, "viscosity_100")
         return self
 
     @property
@@ -126,8 +125,8 @@ class FaceSpec(Spec):
             return self
         for key in ("shaft", "modification"):
             if getattr(self, key) is not None:
-                message = "misalignment has all effects in it\nomit {key}"
-                raise PydanticCustomError("GL111", message, {"key": key})
+                message = f"misalignment has all effects in it\nomit {key}"
+                raise refused(message, key)
         return self
 
 
@@ -201,28 +200,18 @@ class RatingSpec(Spec):
             total = sum(row.share for row in self.spectrum)
             message = f"sum of the shares of the spectrum: {unlike(total, 1.0)} (required 1)"
             message += f"\nchange one of them by {1.0 - total:+.4g}"
-            raise PydanticCustomError("GL111", message, {"key": "spectrum"})
+            raise refused(message, "spectrum")
         if self.spectrum is not None and not any(row.torque and row.share for row in self.spectrum):
-            raise PydanticCustomError(
-                "GL111", "the spectrum carries no load\ngive a torque above 0", {"key": "spectrum"}
-            )
+            raise refused("the spectrum carries no load\ngive a torque above 0", "spectrum")
         for place, (low, high) in enumerate(_WEBS if self.web is not None else ()):
             if self.web is not None and not low <= self.web[place] <= high:
-                message = "{key} must be from {low} to {high}, not {value}"
-                words = {
-                    "key": f"web[{place}]",
-                    "low": f"{low:g}",
-                    "high": f"{high:g}",
-                    "value": f"{self.web[place]:g}",
-                }
-                raise PydanticCustomError("GL108", message, words)
+                message = f"web[{place}] must be from {low:g} to {high:g}, not {self.web[place]:g}"
+                raise refused(message, f"web[{place}]", "GL108")
         if self.system == "pair" and self.planets is not None:
             message = "planets goes with system: sun-planet or planet-ring\nomit it"
-            raise PydanticCustomError("GL111", message, {"key": "planets"})
+            raise refused(message, "planets")
         if self.system != "pair" and self.planets is None and self.reduced_mass is None:
-            raise PydanticCustomError(
-                "GL106", "{system} needs planets, their number", {"key": "planets", "system": self.system}
-            )
+            raise refused(f"{self.system} needs planets, their number", "planets", "GL106")
         return self
 
     def steels(self, limits: tuple[tuple[float | None, float | None], ...]) -> tuple[GearSteel, GearSteel]:
@@ -316,7 +305,7 @@ def require_rated(spec: Any, rating: Any) -> None:
     """
 
     def refuse(code: Literal["GL106", "GL111"], key: str, message: str) -> None:
-        raise PydanticCustomError(code, "{message}", {"key": key, "message": message})
+        raise refused(message, key, code)
 
     if spec.load is None:
         refuse("GL106", "load", "rating needs load: torque (or power, or tangential_force) and speed")

@@ -6,9 +6,8 @@ import re
 from typing import Annotated
 
 from pydantic import AfterValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Coefficient, Spec, unit
+from gearlink.core.base.spec import Coefficient, Spec, refused, unit
 from gearlink.core.parts.gears.keys.types import Factor, Shift
 
 Protuberance = Annotated[float, unit("1", ge=0, le=1)]
@@ -47,9 +46,9 @@ _SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
 def _a_series(name: str) -> str:
     if not re.fullmatch(_SERIES, name):
         message = (
-            "DIN 3967 has no series {name}\ntake a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
+            f"DIN 3967 has no series {name}\ntake a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
         )
-        raise PydanticCustomError("GL108", message, {"name": name})
+        raise refused(message, "", "GL108")
     return name
 
 
@@ -72,14 +71,14 @@ class AllowanceSpec(Spec):
         limits = self.upper is not None or self.lower is not None
         if self.series is not None and limits:
             message = "series excludes upper and lower\nomit series, or upper and lower"
-            raise PydanticCustomError("GL111", message, {"key": "upper" if self.upper is not None else "lower"})
+            raise refused(message, "upper" if self.upper is not None else "lower")
         if self.series is None and (self.upper is None or self.lower is None):
             missing = "series" if not limits else "upper" if self.upper is None else "lower"
-            raise PydanticCustomError("GL106", "give series, or both upper and lower", {"key": missing})
+            raise refused("give series, or both upper and lower", missing, "GL106")
         for place in (0, 1):
             if self.upper is not None and self.lower is not None and self.upper[place] < self.lower[place]:
-                message = "the lower allowance of gear {gear} is above its upper one: exchange them"
-                raise PydanticCustomError("GL111", message, {"key": f"lower[{place}]", "gear": place + 1})
+                message = f"the lower allowance of gear {place + 1} is above its upper one: exchange them"
+                raise refused(message, f"lower[{place}]")
         return self
 
 
@@ -114,10 +113,10 @@ class LoadSpec(Spec):
     def _one_load(self) -> LoadSpec:
         given = [name for name in ("torque", "power", "tangential_force") if getattr(self, name) is not None]
         if not given:
-            raise PydanticCustomError("GL106", "give torque, power with speed, or tangential_force", {"key": "torque"})
+            raise refused("give torque, power with speed, or tangential_force", "torque", "GL106")
         if len(given) > 1:
             message = "torque, power and tangential_force exclude each other\nkeep one of them"
-            raise PydanticCustomError("GL111", message, {"key": given[1]})
+            raise refused(message, given[1])
         if self.power is not None and self.speed is None:
-            raise PydanticCustomError("GL106", "power needs speed", {"key": "speed"})
+            raise refused("power needs speed", "speed", "GL106")
         return self

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Length, Spec
+from gearlink.core.base.spec import Length, Spec, refused
 from gearlink.core.parts.gears.keys.sections import (
     Allowance,
     AllowanceSpec,
@@ -73,7 +72,7 @@ class TrainAllowances(Spec):
 def _both(one: int, other: int) -> list[range]:
     if one != other:
         message = "upper and lower need an entry for each gear"
-        raise PydanticCustomError("GL107", message, {"key": "lower"})
+        raise refused(message, "lower", "GL107")
     return [range(first, first + 2) for first in range(one - 1)]
 
 

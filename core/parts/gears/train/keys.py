@@ -8,9 +8,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Deferred, Length, also
+from gearlink.core.base.spec import Deferred, Length, also, refused
 from gearlink.core.parts.gears.keys.types import Hand, ToothKeys
 
 if TYPE_CHECKING:
@@ -95,14 +94,11 @@ class TrainKeys(ToothKeys):
         names = self.gear_names()
         for key, value in self._lists():
             if isinstance(value, list) and len(value) != len(names):
-                message = "{key} needs an entry for each gear ({names}), not {count}"
-                words = {"key": key, "names": ", ".join(names), "count": len(value)}
-                raise PydanticCustomError("GL107", message, words)
+                message = f"{key} needs an entry for each gear ({', '.join(names)}), not {len(value)}"
+                raise refused(message, key, "GL107")
         given = None if self.load is None else self.load.gear
         if given is not None and given not in names:
-            message = "{key} must be one of {names}, not {given}"
-            words = {"key": "load.gear", "names": ", ".join(names), "given": given}
-            raise PydanticCustomError("GL108", message, words)
+            raise refused(f"load.gear must be one of {', '.join(names)}, not {given}", "load.gear", "GL108")
         return self
 
     def _lists(self) -> Iterator[tuple[str, Any]]:
@@ -123,7 +119,7 @@ class TrainKeys(ToothKeys):
         require_rated(self, self.rating)
         if self.rating.system != "pair":
             message = "system is that of a gear-pair\nomit it, and give reduced_mass where planets matter"
-            raise PydanticCustomError("GL111", message, {"key": "rating.system"})
+            raise refused(message, "rating.system")
         return self
 
     @model_validator(mode="after")
@@ -131,16 +127,16 @@ class TrainKeys(ToothKeys):
         rings = self.rings()
         for key in ("cutter", "assembly"):
             if getattr(self, key) is not None and not any(rings):
-                raise PydanticCustomError("GL111", "{key} goes with a ring gear\nomit it", {"key": key})
+                raise refused(f"{key} goes with a ring gear\nomit it", key)
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
             message = "spur gears have no hand of helix\nomit it, or give helix_angle"
-            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+            raise refused(message, "helix_hand")
         for (one, other), internal in zip(pairwise(self.helix_hand), map(any, pairwise(rings)), strict=True):
             if (one == other) != internal:
                 message = "helix_hand: a gear and its ring have the same hand, two external gears opposite ones"
-                raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+                raise refused(message, "helix_hand")
         return self
 
     def hands(self) -> list[Hand]:
