@@ -33,7 +33,7 @@ _LEAST_PERIODS = 0.5
 ASSUMED_DAMPING = 0.03
 """As `loads.vibration` has it where the file gives none."""
 _LEAST_SPEED_BAND = 100.0
-_MOST_PERIODS = 200.0
+_MOST_IN_BAND = 200.0
 """Of a band: the vibration left is that at its other end, and the effort grows as the third power."""
 _SAME = 1e-9
 _PHASE_OF_PANEL, _NODES = 6.0, 24
@@ -465,7 +465,7 @@ def _band(model: OptimalLaw, phase: Phase) -> tuple[float, float]:
     assert model.band is not None
     low, high = model.band
     if model.unit == "periods" or phase.in_periods or not phase.unit:
-        _require_few_periods(high, f"end the band at {_MOST_PERIODS:g}")
+        _require_few_periods(high, f"end the band at {_MOST_IN_BAND:g}")
         return low, high
     if phase.speed is None or phase.time is None:
         message = f"a band of speeds ({phase.unit}) needs the speed of the design"
@@ -474,13 +474,13 @@ def _band(model: OptimalLaw, phase: Phase) -> tuple[float, float]:
         message = f"the band {low:g} to {high:g} is of speeds ({phase.unit}), and the design runs at {phase.speed:g}: "
         raise NoSolution(f"{message}for natural periods per phase say unit: periods", key="band")
     per_speed = _frequency(model.frequency, phase) * phase.time * phase.speed
-    _require_few_periods(per_speed / low, f"start the band at {safely_above(per_speed / _MOST_PERIODS)} {phase.unit}")
+    _require_few_periods(per_speed / low, f"start the band at {safely_above(per_speed / _MOST_IN_BAND)} {phase.unit}")
     return per_speed / high, per_speed / low
 
 
 def _require_few_periods(periods: float, fix: str) -> None:
-    if periods > _MOST_PERIODS:
-        message = f"natural periods per phase of the band: {short(periods)} (limit <= {_MOST_PERIODS:g})"
+    if periods > _MOST_IN_BAND:
+        message = f"natural periods per phase of the band: {short(periods)} (limit <= {_MOST_IN_BAND:g})"
         raise NoSolution(message, key="band", fix=fix)
 
 
