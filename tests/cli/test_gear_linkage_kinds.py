@@ -173,6 +173,7 @@ dwell: {tolerance: 0.25}
     [
         ("ring: 75", "ring: 80", "GL112", "gears.ring"),
         ("ring: 75", "ring: 50", "GL112", "gears.ring"),
+        ("ring: 75", "ring: 20", "GL111", "gears.ring"),  # `gear` named teeth[1], which stood at `kind`
         ("{rule: osculating}", "{length: 50}", "GL112", "rod"),
         ("{rule: osculating}", "{length: 50, rule: osculating}", "GL111", "rod.rule"),
         ("{rule: osculating}", "{}", "GL106", "rod.rule"),

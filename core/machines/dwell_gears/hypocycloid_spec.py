@@ -27,6 +27,14 @@ class HypocycloidGears(TrainKeys):
         """The second is one."""
         return False, True
 
+    @model_validator(mode="after")
+    def _planet_goes_into_ring(self) -> HypocycloidGears:
+        if self.ring <= self.planet:
+            message = "a ring gear of {ring} teeth does not take a planet of {planet}\nset gears.ring to {least}"
+            words = {"ring": str(self.ring), "planet": str(self.planet), "least": str(3 * self.planet)}
+            raise PydanticCustomError("GL111", message, {"key": "ring", **words})
+        return self
+
 
 class Rod(Spec):
     """The rod from the point to the slider, by length or by rule."""
