@@ -128,8 +128,9 @@ class OfMembers(Design):
             return super().raw(name)
         if rest in _OF_MEMBER:
             return self.phase_of(member, rest)
+        own = self._answering[member]  # where another member refuses, its key stands there
         with in_section(f"members.{member}.design"):
-            return self._answering[member].raw(rest)
+            return own.raw(rest)
 
     @property
     def rocks(self) -> bool:
@@ -150,8 +151,9 @@ class OfMembers(Design):
             return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
         if name not in self.quantity_names():
             raise UnknownName("quantity", name, self.quantity_names())
+        own = self._answering[member]
         with in_section(f"members.{member}.design"):
-            found = self._answering[member].quantity(rest)
+            found = own.quantity(rest)
         return None if found is None else replace(found, name=name)
 
     def check(self, name: str) -> list[Check]:

@@ -169,6 +169,17 @@ def test_members_in_a_circle_and_wrong_members_are_refused_at_their_key() -> Non
         assert wrong.value.key == key
 
 
+@pytest.mark.parametrize("quantity", ["a.prime_radius", "second.crank_length"])
+def test_a_quantity_of_one_member_names_the_other_that_is_wrong(quantity: str) -> None:
+    """It was `members.a.design.members.second.design.links`, the key in the section of who asked."""
+    wrong = {**ROCKER, "links": {"crank": 90, "coupler": 110, "rocker": 80, "frame": 120}}
+    found = machine({"a": of(cam(FEED)), "second": of(wrong)})
+    for ask in (found.quantity, found.raw):
+        with pytest.raises(GearlinkError) as refused:
+            ask(quantity)
+        assert refused.value.key == "members.second.design.links"
+
+
 def test_a_driver_that_swings_beyond_the_range_is_refused_before_any_table() -> None:
     """Of the rocker's whole swing, at the range of the driven crank; a range that holds all of it is taken."""
     narrow = {**SWUNG, "range": [50, 60]}
