@@ -170,6 +170,8 @@ class DiscCam:
     @cached_property
     def corners(self) -> list[Extreme]:
         """Turns of the pitch curve where the lift's velocity jumps [rad], convex positive, and their places."""
+        if not self.bounds:  # a measured cam, whose spline is smooth all round
+            return []
         places = np.array(self.bounds)
         sides = np.mod(np.stack((places - AT_CORNER, places + AT_CORNER)), _TURN)
         before, after = self.normals(sides.ravel()).reshape(sides.shape)

@@ -198,6 +198,18 @@ def test_as_a_disc_cam_it_has_the_profile_that_was_measured(side: int) -> None:
     np.testing.assert_allclose(moved.turn.first, design.cam.motion(phi)[1], rtol=0.0, atol=1e-10)
 
 
+def test_the_outer_wall_of_a_groove_along_a_measured_cam() -> None:
+    """Its profile has no joints, which ended the program; at the hollows of r + a cos 3t r'' = 9a bends the curve."""
+    (whole,) = eccentric(closure="groove").check("outer-wall")
+    assert (whole.status, whole.value) == ("pass", 0.0)
+    points = [[5.0 * i, 60.0 + 8.0 * math.cos(math.radians(15.0 * i))] for i in range(72)]
+    follower = {"type": "translating"}
+    found = eccentric(closure="groove", profile__points=points, follower=follower)
+    (wall,) = found.check("outer-wall")
+    assert wall.status == "pass"
+    assert wall.limit == pytest.approx(52.0**2 / (9 * 8.0 - 52.0) - ROLLER, rel=1e-9)
+
+
 def test_loads_of_a_measured_cam_by_virtual_work() -> None:
     """A slide with mass and spring: torque of the cam and force on the roller by the lift's own rates."""
     loads = factory.design("loaded_measured_cam", command="loads", follower__mass=2.0)
