@@ -328,7 +328,7 @@ class CycloidalReducer(RealSpeed, Design):
         }
         if self.worst_torque is not None:
             columns["force"] = self.worst_torque * disc.shares(at).pins[0], "N"
-            if self.spec.width is not None:
+            if self.is_stressed:
                 columns["stress"] = self.stresses(at)[0], "N/mm^2"
         columns["gap"] = disc.gap(u, *self.changes), "mm"
         return Table.of("pins", columns)

@@ -137,6 +137,16 @@ def test_checks_on_both_sides_of_their_limits() -> None:
     assert design(GIVEN, modification={"offset": 0.01, "pin_circle": 0.02}).backlash is None
 
 
+def test_no_flank_is_stressed_where_one_is_undercut() -> None:
+    """Pins of the table that are larger than the hollow they lie in had the root of a negative number for a stress."""
+    keys = {"pins": 36, "eccentricity": 1.666}
+    undercut = design(GIVEN, **keys)
+    assert undercut.min_curvature_radius < 5.0
+    assert undercut.contact_stress is None
+    assert list(undercut.table("pins").columns) == ["pin", "angle", "lever", "force", "gap"]
+    assert "stress" in design(GIVEN).table("pins").columns
+
+
 def test_refusals() -> None:
     for keys, words in (
         ({"eccentricity": 5.0}, "loops"),
