@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property as kept
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,7 +12,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline, geometry, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
-from gearlink.core.base.report import Check, Quantity, Shown, Status, Table, safely_below
+from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
@@ -23,7 +23,7 @@ from gearlink.core.mechanism.dynamics import Reduced, System
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.motion import TURN, Motion
 from gearlink.core.numerics.arrays import Reals, turn_degrees
-from gearlink.core.studies.loads.design import LoadsDesign
+from gearlink.core.studies.loads.design import SLOWED, LoadsDesign, slower
 from gearlink.core.studies.loads.machine import Machine as Loaded
 from gearlink.core.studies.loads.names import RUN, TORQUE
 
@@ -272,6 +272,12 @@ class MachineLoads(OfMembers, LoadsDesign):
     def phase_of(self, member: str, what: str) -> float | None:
         """Phase and its room of a free member [rad]."""
         return self.design.phase_of(member, what)
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """Of its own checks as of any loads; a finding of a member may have less speed of the machine."""
+        if check in _CHECKS:
+            return super().candidates(check)
+        return slower(self) if check in SLOWED else ()
 
     @property
     def members_without_loads(self) -> list[str] | None:

@@ -853,7 +853,8 @@ def _stiffer(design: LoadsDesign) -> Iterator[Remedy]:
         yield ((f"loads.vibration.{key}", at_least(given * (ratio * more) ** power, 0.1)),)
 
 
-def _slower(design: LoadsDesign) -> Iterator[Remedy]:
+def slower(design: LoadsDesign) -> Iterator[Remedy]:
+    """Less speed, where the file has one."""
     for key in ("loads.speed", "speed", "input_speed"):
         old = number_at(design.spec, key)
         if old is not None:
@@ -868,7 +869,7 @@ def _loaded_one_way(design: LoadsDesign) -> Iterator[Remedy]:
         if name and load.on == design.output:
             old = getattr(load, name)
             yield from (((f"loads.forces[{i}].{name}", _rounded(old * more)),) for more in _STRONGER)
-    yield from _slower(design)
+    yield from slower(design)
 
 
 def _rounded(value: float) -> float:
@@ -916,7 +917,7 @@ def _closed_rollers(design: LoadsDesign) -> Iterator[Remedy]:
     old = number_at(design.spec, "unloader.reserve")
     if old is not None:
         yield from ((("unloader.reserve", at_least(old + more, 0.01)),) for more in (0.1, 0.25, 0.5, 1.0, 2.0))
-    yield from _slower(design)
+    yield from slower(design)
 
 
 _FINDERS: dict[str, Callable[[LoadsDesign], Iterator[Remedy]]] = {
@@ -926,13 +927,15 @@ _FINDERS: dict[str, Callable[[LoadsDesign], Iterator[Remedy]]] = {
     "motor-speed": _other_ratio,
     "speed-fluctuation": _heavier_flywheel,
     "bearing-life": _better_bearing,
-    "residual-vibration": lambda design: iter((*_stiffer(design), *_slower(design))),
+    "residual-vibration": lambda design: iter((*_stiffer(design), *slower(design))),
     "load-reversal": _loaded_one_way,
     "resonance": _damped,
     "self-locking": _less_friction,
 }
 
 
+SLOWED = frozenset(("contact-loss", "residual-vibration", "load-reversal"))
+"""Checks that less speed may repair."""
 _MOST_REVOLUTIONS = 1000
 """Input turns of a period that loads are computed for at most."""
 

@@ -147,6 +147,19 @@ def test_findings_of_members_bear_their_names() -> None:
     assert any(each.code == "GL601" for each in checks)
 
 
+def test_a_member_that_fails_has_less_speed_of_the_machine_as_its_fix() -> None:
+    """What may repair it was sought in the loads of the machine, which have no vibration and no forces."""
+    vibration = {"frequency": 60, "damping": 0.03, "allowed_residual": 0.05}
+    keys = SPRUNG | {"loads": SPRUNG["loads"] | {"vibration": vibration}}
+    found = loads({"m": of(cam(FEED, **keys))})
+    (failing,) = [each for each in found.report("loads").checks if each.name == "residual-vibration"]
+    assert failing.status == "fail"
+    ((key, value),) = failing.remedy
+    assert key == "speed"
+    again = MachineLoads(machine({"m": of(cam(FEED, **keys))}, speed=value).spec)
+    assert {each.status for each in again.check("residual-vibration")} <= {"pass", "warn"}
+
+
 @pytest.mark.parametrize(
     ("members", "more", "key"),
     [
