@@ -82,14 +82,15 @@ class Disc:
         return self.eccentricity * self.lobes
 
     def q(self, u: Reals) -> Reals:
-        """Q = sqrt(1 + K^2 - 2 K cos u)."""
+        """Q = sqrt(1 + K^2 - 2 K cos u), as (1 - K)^2 + 4 K sin^2(u/2) without cancellation."""
         k = self.shortening
-        return np.sqrt(1.0 + k * k - 2.0 * k * np.cos(u))
+        return np.sqrt((1.0 - k) ** 2 + 4.0 * k * np.sin(0.5 * u) ** 2)
 
     def curvature(self, u: Reals) -> Reals:
         """Curvature of the pitch curve, convex positive [1/mm]: (1 + Z K^2 - (Z + 1) K cos u)/(R Q^3)."""
         k, count = self.shortening, self.pins
-        return np.asarray((1.0 + count * k * k - (count + 1) * k * np.cos(u)) / (self.circle * self.q(u) ** 3))
+        above = (1.0 - k) * (1.0 - count * k) + 2.0 * (count + 1) * k * np.sin(0.5 * u) ** 2
+        return np.asarray(above / (self.circle * self.q(u) ** 3))
 
     @cached_property
     def min_convex_radius(self) -> float:

@@ -84,7 +84,7 @@ class CycloidalReducerSpec(DrivenSpec):
     @model_validator(mode="after")
     def _no_loops(self) -> CycloidalReducerSpec:
         most = self.pin_circle_radius / self.pins
-        if self.eccentricity >= most:
+        if self.eccentricity >= most or self.eccentricity * self.pins / self.pin_circle_radius >= 1.0:
             limit = safely_below(most)
             message = (
                 f"the lobes have loops: eccentricity {self.eccentricity:g} mm (limit < {limit} mm, "

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from factory import design
@@ -135,6 +136,32 @@ def test_checks_on_both_sides_of_their_limits() -> None:
         found = [each.status for each in design(GIVEN, **keys).report("analyze").checks if each.name == name]
         assert status in found, keys
     assert design(GIVEN, modification={"offset": 0.01, "pin_circle": 0.02}).backlash is None
+
+
+@pytest.mark.parametrize("away", [1e-3, 1e-9, 1e-14])
+def test_lobes_that_all_but_loop(away: float) -> None:
+    """K next to 1: Q and the curvature's numerator lost all digits, and the lever of the pin at 0 was 0/0."""
+    disc = Disc(12, 60.0, 1.0, 5.0 * (1.0 - away))
+    u = np.array([0.0, 1e-9, 1e-5, 1.0])
+    assert disc.lever(u)[0] == 0.0
+    with mpmath.workdps(40):
+        k, at = mpmath.mpf(disc.shortening), [mpmath.mpf(each) for each in u]
+        root = [mpmath.sqrt(1 + k * k - 2 * k * mpmath.cos(each)) for each in at]
+        bend = [(1 + 12 * k * k - 13 * k * mpmath.cos(x)) / (60 * q**3) for x, q in zip(at, root, strict=True)]
+    np.testing.assert_allclose(disc.q(u), np.array(root, dtype=float), rtol=1e-14)  # some roundings of K, sin and root
+    np.testing.assert_allclose(disc.curvature(u), np.array(bend, dtype=float), rtol=1e-13)
+
+
+@pytest.mark.parametrize("pins", [7, 12, 49])
+def test_the_largest_eccentricity_that_is_no_loop_is_computed(pins: int) -> None:
+    """The first below R/Z that is taken, by 0 to some ulp."""
+    eccentricity = 60.0 / pins
+    while eccentricity * pins / 60.0 >= 1.0:
+        with pytest.raises(ValueError, match="loops"):
+            design(GIVEN, pins=pins, eccentricity=eccentricity)
+        eccentricity = math.nextafter(eccentricity, 0.0)
+    found = design(GIVEN, pins=pins, eccentricity=eccentricity)
+    assert np.isfinite(found.table("pins")["force"]).all()
 
 
 def test_no_flank_is_stressed_where_one_is_undercut() -> None:
