@@ -72,6 +72,13 @@ def test_a_fix_in_a_section_names_the_whole_key(gearlink: Any, designs: Path, ke
     assert f"set {fixed}" in found["help"]
 
 
+def test_a_cutter_that_shapes_no_ring_is_refused_at_its_key_by_every_command(gearlink: Any, designs: Path) -> None:
+    """The table was at `kind`, with a fix that named cutter.rounding."""
+    ended = gearlink("gear", designs / "drawn_ring.yaml", "--set", "gears.cutter.rounding=1", "--table", "drawing")
+    assert ended.status == 2
+    assert "set gears.cutter.rounding to at most 0.3807" in ended.err
+
+
 def test_the_least_swing_that_is_named_is_taken(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "design.yaml"
     path.write_text(_ROCKER.replace("1e-5", "0.000248"))

@@ -281,9 +281,10 @@ class Meshed(GearQuantities, Design):
     def _own_pairs(self) -> dict[str, GearPair]:
         """Pairs by the keys of the file, in which a ring has negative teeth."""
         with in_section("gears"):
-            found = dict(zip(self.mesh_names, self.teeth_train.pairs(), strict=True))
-        for name, pair in found.items():
-            rim, root = self.rim_of(name), abs(pair.root_radius[1])
+            pairs = self.teeth_train.pairs()
+            roots = [abs(pair.root_radius[1]) for pair in pairs]  # a cutter that shapes no ring is refused here
+        for name, pair, root in zip(self.mesh_names, pairs, roots, strict=True):
+            rim = self.rim_of(name)
             if pair.internal and rim is not None and rim <= root:
                 raise NoSolution(
                     f"radius of the rim: {unlike(rim, root)} mm (limit > {unlike(root, rim)} mm, the root radius of "
@@ -291,7 +292,7 @@ class Meshed(GearQuantities, Design):
                     key="gears.rim",
                     fix=f"set gears.rim above {safely_above(root)} mm",
                 )
-        return found
+        return dict(zip(self.mesh_names, pairs, strict=True))
 
     def _standard(self, place: int) -> GearPair:
         gears, (one, other) = self.spec.gears, self.signed_teeth[place : place + 2]
