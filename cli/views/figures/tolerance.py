@@ -163,6 +163,8 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
 
 _MOST_BARS = 12
 """Bars of a quantity at most."""
+_LEAST_SHARE = 0.1
+"""Of the height of A4, for a panel: heading, legend, numbers and label leave a bar its room."""
 
 
 def study_of(design: Any) -> ToleranceStudy | None:
@@ -182,7 +184,8 @@ def draw_tornado(design: Any) -> Figure:
     found, nominal = effects(study.problem, list(study.problem.names))
     names = [name for name, rows in found.items() if _is_moved(rows, nominal[name])][:_MOST]
     bars = min(_MOST_BARS, len(study.problem.sources))
-    made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + len(names) * (0.05 + 0.022 * bars))
+    each = max(_LEAST_SHARE, 0.05 + 0.022 * bars)
+    made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + len(names) * each)
     grid = made.add_gridspec(max(len(names), 1), 1)
     for row, name in enumerate(names):
         _panel(made.add_subplot(grid[row, 0]), study, name, found[name], nominal[name])

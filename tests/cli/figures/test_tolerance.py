@@ -12,6 +12,8 @@ from matplotlib.figure import Figure
 from sheets import fits_a_page, meetings, panel, placed_sheet, sheet, tagged
 
 from gearlink.cli.views.figures import tolerance
+from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.core.studies.tolerance_study.samples import Course
 
 SMALL = {"tolerance__samples": 128}
@@ -162,3 +164,15 @@ def test_a_tornado_has_no_panel_of_rounding() -> None:
     titles = [axes.get_title(loc="left") for axes in tolerance.draw_tornado(design("swing_gripper_register")).axes]
     assert titles
     assert not any("agreement" in title for title in titles)
+
+
+@pytest.mark.slow
+def test_four_quantities_of_one_source_have_room_below_a_stamp() -> None:
+    """Panels for one bar were lower than their words: the layout gave up with a warning, all lay on each other."""
+    one = {"roller_radius": {"plus_minus": 0.01}}
+    figure = tolerance.draw_tornado(design("loaded_measured_cam", tolerance__sources=one))
+    assert len(figure.axes) == 4
+    style.stamp(figure, "fails: one of its checks")
+    settled(figure)
+    bars = [axes.get_window_extent().height / figure.dpi for axes in figure.axes]
+    assert min(bars) > 0.2  # in
