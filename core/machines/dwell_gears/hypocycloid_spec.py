@@ -30,9 +30,8 @@ class HypocycloidGears(TrainKeys):
     @model_validator(mode="after")
     def _planet_goes_into_ring(self) -> HypocycloidGears:
         if self.ring <= self.planet:
-            message = "a ring gear of {ring} teeth does not take a planet of {planet}\nset gears.ring to {least}"
-            words = {"ring": str(self.ring), "planet": str(self.planet), "least": str(3 * self.planet)}
-            raise PydanticCustomError("GL111", message, {"key": "ring", **words})
+            message = f"a ring gear of {self.ring} teeth does not take a planet of {self.planet}"
+            raise refused(f"{message}\nset gears.ring to {3 * self.planet}", "ring")
         return self
 
 

@@ -39,6 +39,8 @@ BACK_STEP = "back-step"
 # frames apart, so nearer to zero than this the output has one standstill, not two or none.
 STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
+_NEAR = 1e-2
+"""Angle to the minimum speed [rad] that a linkage within the tolerance of a momentary dwell has at most."""
 
 
 class Output(GearedOutput):
@@ -144,8 +146,11 @@ class Output(GearedOutput):
         phi = crank_angle(r1, r5, reach, limit.pole_offset * limit.cos_beta, limit.sin_beta, linkage.assembly)
         if abs(self.speed(phi)) > STANDSTILL_TOLERANCE * self.terms(phi):
             return []
+        pull, jerk = self.acceleration(phi), self.jerk(phi)
+        if not abs(pull) < _NEAR * abs(jerk):  # links that all but fold, whose terms are so large that any speed is small
+            return []
         # One Newton step from the double root of the limit to the minimum speed of this very linkage.
-        return [wrap(phi - self.acceleration(phi) / self.jerk(phi))]
+        return [wrap(phi - pull / jerk)]
 
 
 class ByRoots(Output):

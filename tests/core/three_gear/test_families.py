@@ -72,6 +72,21 @@ def test_frame_for_a_dwell_angle(given_: Any, wanted: Any) -> None:
     assert math.degrees(Output(linkage, train).back_step.angle) == pytest.approx(wanted["back_step"], rel=1e-10)
 
 
+@pytest.mark.parametrize("radii", [(40.0, 72.0, 40.0), (40.0, 20.0, 60.0)])
+def test_a_crank_as_long_as_the_radius_of_its_gear(radii: tuple[float, float, float]) -> None:
+    """Equal crank and output gears had 1/0 at the end of the family, where the links fold to a kite; the frame is
+    between those of its neighbours, half the second difference of steps of 1e-6 from their mean."""
+    train = train_of(list(radii))
+
+    def frame(crank: float) -> float:
+        family = families.with_crank(*radii, crank)
+        return families.solved(family, families.back_step_crank_angle_of(train), math.radians(60.0), "").frame
+
+    step = 1e-6 * radii[0]
+    mean = 0.5 * (frame(radii[0] - step) + frame(radii[0] + step))
+    assert frame(radii[0]) == pytest.approx(mean, rel=1e-11)
+
+
 def test_momentary_from_frame_and_from_room() -> None:
     wanted = {c["name"]: c["expected"]["crank"] for c in CASES if c["name"].startswith("B3.")}
     given_ = {c["name"]: c["input"] for c in CASES if c["name"].startswith("B3.")}
