@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field, model_validator
 
 from gearlink.core.base.design import Design, Found, Outline, placed
-from gearlink.core.base.errors import in_section
+from gearlink.core.base.errors import at_key, in_section
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import DesignSpec, Length, Speed, refused, unit
@@ -225,7 +225,8 @@ class MotionLawDesign(WithShapedLaws, Design):
         """Vibration left over the rise at numbers of natural periods."""
         from gearlink.core.parts.cams.shaped import residuals
 
-        return residuals(self.law, periods, self.damping)
+        with at_key("law" if self.spec.frequency is None else "frequency"):
+            return residuals(self.law, periods, self.damping)
 
     @cached_property
     def residual_at_design(self) -> float | None:

@@ -37,6 +37,8 @@ _MOST_IN_BAND = 200.0
 """Of a band: the vibration left is that at its other end, and the effort grows as the third power."""
 _SAME = 1e-9
 _PHASE_OF_PANEL, _NODES = 6.0, 24
+_MOST_PERIODS = 10_000.0
+"""Natural periods per phase whose vibration is computed: time and memory are in proportion to them."""
 
 
 class Phase(NamedTuple):
@@ -492,13 +494,18 @@ def residuals(law: Law, periods: Reals, damping: float = 0.0) -> Reals:
 
     R = |Int s'' exp((-zeta w + i w_d) (1 - x)) dx|/w_d,  w = 2 pi lambda
 
+    Raises
+        NoSolution - for more natural periods than are computed
     Example
         >>> from gearlink.core.parts.cams.laws import law
         >>> round(float(residuals(law("cycloidal"), np.ones(1))[0]), 12)
         0.5
     """
-    joints = [0.0, *law.joints, 1.0]
-    step = _PHASE_OF_PANEL / (_TWO_PI * float(np.max(periods)))
+    joints, most = [0.0, *law.joints, 1.0], float(np.max(periods))
+    if most > _MOST_PERIODS:
+        message = f"natural periods per phase: {short(most)} (limit <= {_MOST_PERIODS:g})"
+        raise NoSolution(message, fix="shorten the phase, or lower the frequency")
+    step = _PHASE_OF_PANEL / (_TWO_PI * most)
     edges = np.concatenate(
         [np.linspace(a, b, math.ceil((b - a) / step) + 1)[:-1] for a, b in pairwise(joints)] + [np.ones(1)]
     )

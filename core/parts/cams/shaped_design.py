@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Found
+from gearlink.core.base.errors import at_key
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.wording import short
 from gearlink.core.parts.cams.codes import LAW_GAP, LAW_RIPPLE, POLYDYNE_RANGE
@@ -85,7 +86,8 @@ class WithShapedLaws:
                 continue
             damping = (phase.damping or 0.0) if shaping is None or shaping.periods is None else shaping.damping
             names = {law.name: law, **{name: law_of(name) for name in BESIDE if law.kind == "rest-to-rest"}}
-            left = {name: residuals(each, periods / share, damping) for name, each in names.items()}
+            with at_key(path):
+                left = {name: residuals(each, periods / share, damping) for name, each in names.items()}
             speed = share if phase.speed is None else share * phase.speed
             found.append(Vibration(path, speed, phase.unit if phase.speed is not None else "1", periods / share, left))
         return found

@@ -178,6 +178,16 @@ def test_residuals_are_those_of_a_simulated_follower(definition: Any, periods: f
     assert left == pytest.approx(simulated, rel=1e-9, abs=1e-12 * found.peak_acceleration)
 
 
+def test_more_natural_periods_than_are_computed_are_refused_at_their_key() -> None:
+    """A phase of 1e9 ms took 41 GB, and a fault ended the command."""
+    asked = {"kind": "motion-law", "law": "cycloidal", "frequency": 220.0}
+    assert factory.design(asked, time=20_000.0).residual_at_design < 1e-6
+    for found in (factory.design(asked, time=1e9).table, lambda _: factory.design(asked, time=1e9).residual_at_design):
+        with pytest.raises(NoSolution, match="natural periods per phase") as refused:
+            found("residual")
+        assert refused.value.key == "frequency"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("minimize", ["torque", "acceleration", "jerk", "velocity", "residual"])
 @pytest.mark.parametrize("to_speed", [False, True])
