@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from axes import SOAK, agree, bits_stand_alone, sampled
+from axes import SOAK, agree, bits_stand_alone, by_path, sampled
 
 from gearlink.core.studies.explore.chunks import chunk_of, evaluated, together
 from gearlink.core.studies.explore.preparing import problem
@@ -164,6 +164,16 @@ def test_no_bit_depends_on_the_neighbours(name: str) -> None:
 
 
 @pytest.mark.quick(2)
+def test_tips_that_are_shortened_beyond_the_axis_are_refused() -> None:
+    """A wide centre distance takes 31 modules from the tips: the square of the radius, then below -r_b, exceeds that of
+    the base radius, and the pair had a contact ratio of 1.37."""
+    base = {"kind": "gear-pair", "module": 2.5, "teeth": [26, 53], "center_distance": 100, "shift_split": 0.2}
+    variables = {"module": {"from": 1.65, "to": 1.8}, "teeth[1]": {"from": 36, "to": 42}}
+    made = sampled(base, "gear", variables, ["contact_ratio", "tip_thickness[0]"], 64)
+    agree(made)
+    assert (made.axis.evaluate(by_path(made, made.order.columns(np.arange(64)))).refused > 0).any()
+
+
 @pytest.mark.parametrize("must_pass", ["none", ["GL201", "GL205"], ["GL210"], "all"])
 def test_a_design_is_refused_where_what_is_asked_for_needs_it(must_pass: Any) -> None:
     data = {

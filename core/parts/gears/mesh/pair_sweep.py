@@ -286,7 +286,9 @@ class GearPairs(GearPair):
         return True
 
     def _rise_to(self, radius: float, increase: float, _what: str = "radius") -> float:
-        return teeth.rise_between(radius, increase, self.transverse_pressure_angle, self.fn)
+        """NaN inside the base circle, and where a tip is shortened beyond the axis: R^2 may exceed r_b^2 there."""
+        found = teeth.rise_between(radius, increase, self.transverse_pressure_angle, self.fn)
+        return np.where(radius + increase > 0.0, found, np.nan)  # type: ignore[return-value]
 
     @property
     def tip_shortening(self) -> float:
