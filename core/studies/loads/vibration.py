@@ -37,6 +37,8 @@ _LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
 _BLOCK, _AT_ONCE = 8192, 100
 _DIGITS = 13
 """Of the widths of panels that count as one."""
+_TOUCH = 1e-9
+"""Angle between dwells that are one [rad]."""
 Function = Callable[[Reals], Reals]
 
 
@@ -306,6 +308,21 @@ _PER_UNIT = 50
 _PER_TURN, _PER_PERIOD, _MOST_ROWS = 115.0, 2.0, 20_000  # by radians: two a degree, and twelve a natural period
 
 
+def _joined(zones: Sequence[tuple[float, float]], period: float) -> list[tuple[float, float]]:
+    """Ascending dwells, those that touch as one, also over the end of the period."""
+    found: list[tuple[float, float]] = []
+    for start, width in zones:
+        if found and start - sum(found[-1]) <= _TOUCH:
+            before = found.pop()[0]
+            found.append((before, start + width - before))
+        else:
+            found.append((start, width))
+    if len(found) > 1 and found[0][0] + period - sum(found[-1]) <= _TOUCH:
+        (start, width), last = found.pop(0), found.pop()[0]
+        found.append((last, start + period + width - last))
+    return found
+
+
 class Vibrating:
     """The output of a design as a mass on a spring; places in deg where it turns, in mm where it slides.
 
@@ -417,10 +434,10 @@ class Vibrating:
 
     @cached_property
     def dwells(self) -> list[tuple[float, float]]:
-        """Start and width of each dwell of the output within its own period, ascending [rad]."""
+        """Start and width of each dwell of the output within its own period, ascending [rad]; touching ones are one."""
         design, zones = self.design, self.design.dwell_zones
         own = zones[: len(zones) * design.motion_turns // design.turns]
-        return sorted((start % self.period, width) for start, width in own)
+        return _joined(sorted((start % self.period, width) for start, width in own), self.period)
 
     @cached_property
     def motions(self) -> list[tuple[float, float]]:
@@ -429,7 +446,9 @@ class Vibrating:
         for i, (start, _) in enumerate(self.dwells):
             before, width = self.dwells[i - 1]
             left = before + width
-            found.append((left - period if left > start else left, start))
+            left -= period if left > start else 0.0
+            if start - left > _TOUCH:  # else the output stands all the time
+                found.append((left, start))
         return found
 
     def _panelled(self, start: float, end: float, slowest: float) -> Panelled:

@@ -257,3 +257,31 @@ def test_tables_of_a_vibration_that_is_not_given_are_refused_before_any_force(ta
     with pytest.raises(MissingSection, match=r"loads\.vibration"):
         loads.report("loads", tables=(table,))
     assert "machine" not in loads.__dict__
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        [(100, 25), (130, None), (160, None), (280, 0), (300, None), (360, None)],  # dwells in two parts
+        [
+            (10, None),
+            (20, None),
+            (120, 25),
+            (180, None),
+            (300, 0),
+            (360, None),
+        ],  # a dwell over the end of the revolution
+    ],
+)
+def test_dwells_that_touch_are_one(parts: list[tuple[float, float | None]]) -> None:
+    """Between them there is no motion, of which the table of the spectrum and the residual had 1/0."""
+    laws = {25: "modified-sine", 0: "cycloidal"}
+    motion = [{"to": to} | ({} if lift is None else {"lift": lift, "law": laws[lift]}) for to, lift in parts]
+    whole = factory.design("loaded_cam", command="loads").vibrating
+    found = factory.design("loaded_cam", command="loads", motion=motion).vibrating
+    assert [width for _, width in found.dwells] == pytest.approx([width for _, width in whole.dwells], rel=1e-12)
+    assert len(found.motions) == 2
+    assert found.rise_periods == pytest.approx(whole.rise_periods, rel=1e-12)
+    for name in ("residual", "twist"):  # differences of 25 mm to 1e-12 of it, over some micrometres
+        assert getattr(found, name) == pytest.approx(getattr(whole, name), rel=1e-8)
+    assert np.isfinite(found.spectrum(5)[2]).all()
