@@ -147,9 +147,7 @@ class Output(GearedOutput):
         if abs(self.speed(phi)) > STANDSTILL_TOLERANCE * self.terms(phi):
             return []
         pull, jerk = self.acceleration(phi), self.jerk(phi)
-        if not abs(pull) < _NEAR * abs(
-            jerk
-        ):  # links that all but fold: with terms so large any speed is small
+        if not abs(pull) < _NEAR * abs(jerk):  # links that all but fold: with terms so large any speed is small
             return []
         # One Newton step from the double root of the limit to the minimum speed of this very linkage.
         return [wrap(phi - pull / jerk)]
