@@ -1,7 +1,5 @@
 """What the spec models share: strictness, and number types that carry their unit into the JSON Schema."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -143,7 +141,7 @@ class Deferred:
         return getattr(import_module(f"gearlink.core.{module}"), name)
 
     @cached_property
-    def _adapter(self) -> TypeAdapter[Any]:
+    def _adapter(self) -> "TypeAdapter[Any]":
         from pydantic import TypeAdapter
 
         model = self.model()

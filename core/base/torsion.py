@@ -1,9 +1,7 @@
 """Shafts as torsion springs: a stiffness, or the sizes of a shaft that it follows from."""
 
-from __future__ import annotations
-
 import math
-from typing import Annotated, TypeAlias
+from typing import Annotated, Self, TypeAlias
 
 from pydantic import Field, model_validator
 
@@ -21,7 +19,7 @@ class ShaftPiece(Spec):
     bore: Distance = Field(0.0, description="inner diameter")
 
     @model_validator(mode="after")
-    def _hollow(self) -> ShaftPiece:
+    def _hollow(self) -> Self:
         if self.bore >= self.diameter:
             message = f"bore {self.bore:g} mm is not below the diameter {self.diameter:g} mm"
             raise refused(f"{message}\nset a smaller bore", "bore")

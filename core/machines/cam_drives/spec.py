@@ -1,9 +1,7 @@
 """The design files of mechanisms of gears or links with cams."""
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -121,7 +119,7 @@ class Harmonics(Spec):
     y: Annotated[list[Harmonic], Field(min_length=1, max_length=60)] = Field(description="the same of y")
 
     @model_validator(mode="after")
-    def _whole(self) -> Harmonics:
+    def _whole(self) -> Self:
         for key in ("x", "y"):
             for place, (n, *_) in enumerate(getattr(self, key)):
                 if n < 1 or n != int(n) or n > 1000:
@@ -140,7 +138,7 @@ class LinkedPath(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> LinkedPath:
+    def _one(self) -> Self:
         if (self.harmonics is None) == (self.points is None):
             if self.points is None:
                 raise refused("give harmonics, or points instead", "harmonics", "GL106")

@@ -1,8 +1,6 @@
 """The design file of a crank-rocker."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -53,7 +51,7 @@ class Swing(Spec):
         return tuple(name for name in _SIZES if getattr(self, name) is not None)
 
     @model_validator(mode="after")
-    def _lengths(self) -> Swing:
+    def _lengths(self) -> Self:
         if not self.given:
             raise refused("give one of crank, coupler, rocker and frame, or crank and frame", "frame", "GL106")
         if len(self.given) > 1 and self.given != ("crank", "frame"):
@@ -97,7 +95,7 @@ class Function(Spec):
     )
 
     @model_validator(mode="after")
-    def _given_or_named(self) -> Function:
+    def _given_or_named(self) -> Self:
         needed, more = ("name", "x", "input_swing", "output_swing"), ("exponent", "input_start", "output_start")
         if self.pairs is not None:
             if wrong := next((key for key in (*needed, *more) if getattr(self, key) is not None), ""):
@@ -131,7 +129,7 @@ class CrankRockerSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _range_goes_up(self) -> CrankRockerSpec:
+    def _range_goes_up(self) -> Self:
         if self.range is not None and self.range[1] <= self.range[0]:
             raise refused("the range ends before it starts\ngive a greater end", "range")
         return self

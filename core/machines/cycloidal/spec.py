@@ -1,8 +1,6 @@
 """The design file of a cycloidal reducer."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -82,7 +80,7 @@ class CycloidalReducerSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _no_loops(self) -> CycloidalReducerSpec:
+    def _no_loops(self) -> Self:
         most = self.pin_circle_radius / self.pins
         if self.eccentricity >= most or self.eccentricity * self.pins / self.pin_circle_radius >= 1.0:
             limit = safely_below(most)

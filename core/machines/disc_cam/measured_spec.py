@@ -1,11 +1,9 @@
 """The design file of a measured cam."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -69,7 +67,7 @@ class Profile(Spec):
     file: str | None = Field(None, description="CSV file with these columns, instead of points")
 
     @model_validator(mode="after")
-    def _turn(self) -> Profile:
+    def _turn(self) -> Self:
         if (self.points is None) == (self.file is None):
             given = self.points is not None
             raise refused("give points or file" + (", not both" if given else ""), "file" if given else "points")
@@ -113,7 +111,7 @@ class MeasuredCamSpec(TolerancedSpec):
     )
 
     @model_validator(mode="after")
-    def _enough(self) -> MeasuredCamSpec:
+    def _enough(self) -> Self:
         count, order = len(self.profile.points or ()), self.order
         if count < 2 * order + 1:
             message = f"harmonics through {count} points: {order} (at most {(count - 1) // 2})"

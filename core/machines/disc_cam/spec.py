@@ -1,8 +1,6 @@
 """The design file of a disc cam."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -168,7 +166,7 @@ class Spring(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> Spring:
+    def _one(self) -> Self:
         if (self.preload is None) == (self.least_force is None):
             key = "preload" if self.preload is None else "least_force"
             raise refused("give preload, or least_force instead", key)
@@ -200,7 +198,7 @@ class Servo(Spec):
     tolerance: Length | None = Field(None, description="maximum position error between rows, instead of rows")
 
     @model_validator(mode="after")
-    def _one(self) -> Servo:
+    def _one(self) -> Self:
         if (self.rows is None) == (self.tolerance is None):
             raise refused("give rows, or tolerance instead", "rows" if self.rows is None else "tolerance")
         return self
@@ -280,7 +278,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self.profile.base_radius + getattr(self.follower, "roller_radius", 0.0)
 
     @model_validator(mode="after")
-    def _runs(self) -> DiscCamSpec:
+    def _runs(self) -> Self:
         if self.motion is not None:
             if self.profile is not None:
                 raise refused("profile makes the motion\nomit one of them", "profile")
@@ -297,7 +295,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self
 
     @model_validator(mode="after")
-    def _one_radius(self) -> DiscCamSpec:
+    def _one_radius(self) -> Self:
         cam = self.cam
         if self.profile is not None:
             for key in ("prime_radius", "base_radius", "size"):
@@ -321,7 +319,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self
 
     @model_validator(mode="after")
-    def _size_of_follower(self) -> DiscCamSpec:
+    def _size_of_follower(self) -> Self:
         size, follower = self.cam.size, self.follower
         if size is not None and self.is_flat:
             if size.curvature_radius is None:
@@ -345,7 +343,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self
 
     @model_validator(mode="after")
-    def _closed(self) -> DiscCamSpec:
+    def _closed(self) -> Self:
         roller = self.return_roller
         if not self.rolls and self.closure != "spring":
             raise refused(f"{self.closure} goes with a roller\nset closure to spring", "closure")
@@ -366,7 +364,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self
 
     @model_validator(mode="after")
-    def _without_a_roller(self) -> DiscCamSpec:
+    def _without_a_roller(self) -> Self:
         if not self.is_edge:
             return self
         if self.errors is not None and self.errors.roller_radius:

@@ -1,8 +1,6 @@
 """The design file of a slider that dwells on an arc of a hypocycloid."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -46,7 +44,7 @@ class Rod(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> Rod:
+    def _one(self) -> Self:
         if self.length is None and self.rule is None:
             raise refused("give length or rule", "rule", "GL106")
         if self.length is not None and self.rule is not None:
@@ -109,7 +107,7 @@ class HypocycloidDwellSpec(DrivenSpec):
         return self.output == "slotted-arm"
 
     @model_validator(mode="after")
-    def _rod_or_target(self) -> HypocycloidDwellSpec:
+    def _rod_or_target(self) -> Self:
         if not self.point.ratio > 0.0:
             message = f"point.ratio: {self.point.ratio:g} (limit > 0)\nset point.ratio above 0"
             raise refused(message, "point.ratio", "GL108")

@@ -1,8 +1,6 @@
 """The design file of a dwell by a mutilated gear."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, ClassVar, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeAlias
 
 from pydantic import Field, model_validator
 
@@ -68,7 +66,7 @@ class WantedTimes(Spec):
     )
 
     @model_validator(mode="after")
-    def _one_each(self) -> WantedTimes:
+    def _one_each(self) -> Self:
         for name in ("motion", "dwell"):
             given = [key for key in (f"{name}_turns", f"{name}_time") if getattr(self, key) is not None]
             if not given:
@@ -100,7 +98,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _teeth_or_times(self) -> MutilatedGearDwellSpec:
+    def _teeth_or_times(self) -> Self:
         values = {
             "reduction": self.reduction,
             "gears.full_teeth": self.gears.full_teeth,
@@ -134,7 +132,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
         return motion, dwell
 
     @model_validator(mode="after")
-    def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
+    def _shaft_of_the_rocker(self) -> Self:
         if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
             raise refused("D_radius goes with the four-bar\ngive links, or omit it", "shafts.D_radius")
         return self

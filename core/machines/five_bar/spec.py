@@ -1,8 +1,6 @@
 """The design file of a geared five-bar, for a path or for a function."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -65,7 +63,7 @@ class FiveBarGears(TrainKeys):
         return tuple(name == "ring" for name in self.gear_names())
 
     @model_validator(mode="after")
-    def _rim(self) -> FiveBarGears:
+    def _rim(self) -> Self:
         require_rim(self.rim, self.ring_teeth, self.module, own_teeth=self.own_teeth)
         return self
 
@@ -117,7 +115,7 @@ class WantedFunction(Spec):
     )
 
     @model_validator(mode="after")
-    def _whole(self) -> WantedFunction:
+    def _whole(self) -> Self:
         require_function(self.name, self.exponent, self.x, self.output_swing)
         return self
 
@@ -172,7 +170,7 @@ class FiveBarTarget(Spec):
     )
 
     @model_validator(mode="after")
-    def _one_target(self) -> FiveBarTarget:
+    def _one_target(self) -> Self:
         given = [name for name in ("poses", "points", "positions", "function") if getattr(self, name) is not None]
         if len(given) > 1:
             message = f"{given[0]} and {given[1]} exclude each other\nomit {given[0]} or {given[1]}"
@@ -213,7 +211,7 @@ class GearedFiveBarSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _form(self) -> GearedFiveBarSpec:
+    def _form(self) -> Self:
         for key, needed in _NEEDED[self.form].items():
             section, _, name = key.partition(".")
             value = getattr(self, section)

@@ -1,7 +1,5 @@
 """The section `loads` of a flatbed press."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

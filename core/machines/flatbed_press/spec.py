@@ -1,9 +1,7 @@
 """The design file of a flatbed cylinder press."""
 
-from __future__ import annotations
-
 from math import cos, radians
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -78,7 +76,7 @@ class Cylinder(Spec):
         return self.gear_ratio if self.gears is None else self.gears.teeth[0] / self.gears.teeth[1]
 
     @model_validator(mode="after")
-    def _same_ratio(self) -> Cylinder:
+    def _same_ratio(self) -> Self:
         if self.gears is not None and "gear_ratio" in self.model_fields_set and self.gear_ratio != self.ratio:
             message = (
                 f"the teeth of gears 3 and 4 make a ratio of {self.ratio:.9g}\nomit gear_ratio, or change the teeth"
@@ -108,12 +106,12 @@ class Bed(Spec):
     ) = Field(None, description="teeth of the lower and of the upper rack; default: as many as the travel takes")
 
     @model_validator(mode="after")
-    def _one_size(self) -> Bed:
+    def _one_size(self) -> Self:
         require_stroke_or_crank(self.stroke, self.crank)
         return self
 
     @model_validator(mode="after")
-    def _reachable(self) -> Bed:
+    def _reachable(self) -> Self:
         require_offset_below_rod(self.rod, self.offset, "offset")
         if self.rack_teeth is not None and self.pinion is None:
             message = "rack_teeth goes with pinion: {module, teeth}"
@@ -154,7 +152,7 @@ class PressCam(Spec):
     shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
 
     @model_validator(mode="after")
-    def _one_transition(self) -> PressCam:
+    def _one_transition(self) -> Self:
         if self.transition_end is None and self.transition_angle is None:
             message = "either transition_end or transition_angle is needed"
             message += "\ngive transition_angle, the cam angle from the end of the zone to the maximum lift"
@@ -197,7 +195,7 @@ class FlatbedPressSpec(TolerancedSpec):
     )
 
     @model_validator(mode="after")
-    def _one_radius(self) -> FlatbedPressSpec:
+    def _one_radius(self) -> Self:
         """A radius that the loads give beside teeth must be that of the teeth."""
         pinion, gears = self.bed.pinion, self.cylinder.gears
         for key, teeth in (

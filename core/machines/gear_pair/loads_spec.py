@@ -1,7 +1,5 @@
 """The section `loads` of a gear pair."""
 
-from __future__ import annotations
-
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec

@@ -1,8 +1,6 @@
 """The design file of a gear pair."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -73,7 +71,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     )
 
     @model_validator(mode="after")
-    def _placed(self) -> GearPairSpec:
+    def _placed(self) -> Self:
         require_teeth(self.teeth)
         if self.center_distance is None and self.profile_shift is None:
             message = "either center_distance or profile_shift is needed\ngive profile_shift: [0, 0] for standard gears"
@@ -88,7 +86,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         return self
 
     @model_validator(mode="after")
-    def _fits_its_kind(self) -> GearPairSpec:
+    def _fits_its_kind(self) -> Self:
         second = self.teeth[1]
         internal = isinstance(second, int) and second < 0
         self._fits_a_rack()

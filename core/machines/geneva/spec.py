@@ -1,8 +1,6 @@
 """The design file of a Geneva drive."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -76,7 +74,7 @@ class GenevaDriveSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _pins_in_turn(self) -> GenevaDriveSpec:
+    def _pins_in_turn(self) -> Self:
         sign = 1.0 if self.type == "external" else -1.0
         step = 180.0 - sign * 360.0 / self.slots
         if self.pins * step > 360.0 + 1e-9:

@@ -1,11 +1,9 @@
 """The design file of a machine: members, events, relations, main shaft."""
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema, model_validator
 
@@ -113,7 +111,7 @@ class Member(Spec):
         return data
 
     @model_validator(mode="after")
-    def _one_design(self) -> Member:
+    def _one_design(self) -> Self:
         if self.of is None and self.design is None:
             raise refused("give `of` or `design`, exactly one", "of", "GL106")
         if self.ratio == 0.0:
@@ -134,13 +132,13 @@ class Member(Spec):
         return self.design
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> "Kind":
         """The kind of its design."""
         from gearlink.core.base.kinds import KINDS
 
         return KINDS[self.spec.kind]
 
-    def changed(self, changes: Iterable[tuple[str, Any]]) -> Any:
+    def changed(self, changes: "Iterable[tuple[str, Any]]") -> Any:
         """The spec of its design with other values at some paths.
 
         Raises
@@ -188,7 +186,7 @@ class MainShaft(Spec):
     )
 
     @model_validator(mode="after")
-    def _as_many(self) -> MainShaft:
+    def _as_many(self) -> Self:
         count = len(self.inertias)
         if len(self.stiffnesses) != count - 1:
             springs = amount(count - 1, "stiffness", "stiffnesses")
@@ -251,7 +249,7 @@ class MachineServo(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> MachineServo:
+    def _one(self) -> Self:
         if (self.rows is None) == (self.tolerance is None):
             key = "rows" if self.rows is None else "tolerance"
             raise refused("give rows, or tolerance instead", key, "GL106" if self.rows is None else "GL111")
@@ -297,7 +295,7 @@ class MachineSpec(TolerancedSpec):
         return tuple(parse(text) for text in self.require)
 
     @model_validator(mode="after")
-    def _drivers(self) -> MachineSpec:
+    def _drivers(self) -> Self:
         for name, member in self.members.items():
             _require_name(name, f"members.{name}")
             if member.input is None:
@@ -321,7 +319,7 @@ class MachineSpec(TolerancedSpec):
         return []
 
     @model_validator(mode="after")
-    def _named(self) -> MachineSpec:
+    def _named(self) -> Self:
         for name, event in self.events.items():
             _require_name(name, f"events.{name}")
             if name in self.members:

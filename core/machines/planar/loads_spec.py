@@ -1,7 +1,5 @@
 """The section `loads` of a planar mechanism."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

@@ -1,9 +1,7 @@
 """The design file of a planar mechanism: its links, what joins them, what drives it."""
 
-from __future__ import annotations
-
 import re
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -91,7 +89,7 @@ class Teeth(Spec):
     side: Literal[1, -1] | None = Field(None, description="1: the pinion is to the left of the direction; -1: right")
 
     @model_validator(mode="after")
-    def _one_sort(self) -> Teeth:
+    def _one_sort(self) -> Self:
         of_rack = {"rack": self.rack, "pinion": self.pinion, "direction": self.direction, "side": self.side}
         if self.gears is not None:
             if wrong := next((key for key, value in of_rack.items() if value is not None), ""):
@@ -146,7 +144,7 @@ class CamPair(Spec):
     on: Name | None = Field(None, description="body that carries both; default: the first that does")
 
     @model_validator(mode="after")
-    def _one_contact(self) -> CamPair:
+    def _one_contact(self) -> Self:
         if (self.roller_radius is None) == (self.face is None):
             words = "give roller_radius or face"
             code = "GL106" if self.face is None else "GL111"
@@ -165,7 +163,7 @@ class Drive(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> Drive:
+    def _one(self) -> Self:
         if (self.link is None) == (self.slide is None):
             words = "give link or slide" if self.link is None else "give either link or slide: one input drives"
             raise refused(words, "slide", "GL106" if self.link is None else "GL111")
@@ -184,7 +182,7 @@ class Range(Spec):
     end: Place = Field(description="last input")
 
     @model_validator(mode="after")
-    def _ascending(self) -> Range:
+    def _ascending(self) -> Self:
         if self.end <= self.start:
             raise refused("the range ends before it starts\ngive a greater end", "end")
         return self
@@ -244,7 +242,7 @@ class PlanarSpec(TolerancedSpec):
     )
 
     @model_validator(mode="after")
-    def _wired(self) -> PlanarSpec:
+    def _wired(self) -> Self:
         from gearlink.core.machines.planar.wiring import faults
 
         for code, key, message in faults(self):

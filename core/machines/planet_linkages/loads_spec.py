@@ -1,7 +1,5 @@
 """The section `loads` of a two-gear four-bar and of a geared rocker."""
 
-from __future__ import annotations
-
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec

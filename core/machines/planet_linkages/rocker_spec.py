@@ -1,8 +1,6 @@
 """The design file of a rocker whose swing a gear multiplies."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -55,7 +53,7 @@ class GearedRockerSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _crank_or_swing(self) -> GearedRockerSpec:
+    def _crank_or_swing(self) -> Self:
         if self.links.crank is None and self.target is None:
             raise refused("give links.crank, or target.swing from which it is found", "links.crank", "GL106")
         if self.links.crank is not None and self.target is not None:

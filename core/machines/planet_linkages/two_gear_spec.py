@@ -1,8 +1,6 @@
 """The design file of a two-gear four-bar."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -33,7 +31,7 @@ class PlanetGears(TrainKeys):
         return False, self.ring is not None
 
     @model_validator(mode="after")
-    def _one_output(self) -> PlanetGears:
+    def _one_output(self) -> Self:
         if self.sun is None and self.ring is None:
             raise refused("give sun or ring, the output gear on A", "sun", "GL106")
         if self.sun is not None and self.ring is not None:
@@ -58,7 +56,7 @@ class StandingDwell(DwellBand):
     """Specification for `synth dwell`: crank angle over which the output stays within a tolerance; gives the frame."""
 
     @model_validator(mode="after")
-    def _one_request(self) -> StandingDwell:
+    def _one_request(self) -> Self:
         if self.window is None and self.tolerance is None:
             raise refused("give window, tolerance or both", "tolerance", "GL106")
         if self.margin is not None and self.window is not None:
@@ -107,7 +105,7 @@ class TwoGearFourBarSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _frame_given_or_sought(self) -> TwoGearFourBarSpec:
+    def _frame_given_or_sought(self) -> Self:
         syntheses = self._syntheses()
         if self.links.frame is None and not syntheses:
             message = "give frame, or have it sought\ngive dwell, back_step, or target with motion: momentary-dwell"
@@ -119,7 +117,7 @@ class TwoGearFourBarSpec(DrivenSpec):
         return self
 
     @model_validator(mode="after")
-    def _one_tolerance(self) -> TwoGearFourBarSpec:
+    def _one_tolerance(self) -> Self:
         if self.dwell_tolerance is not None and self.dwell is not None:
             message = "dwell_tolerance measures links that are given, dwell has the frame sought\nomit one of them"
             raise refused(message, "dwell_tolerance")
@@ -128,7 +126,7 @@ class TwoGearFourBarSpec(DrivenSpec):
         return self
 
     @model_validator(mode="after")
-    def _lay_has_a_speed(self) -> TwoGearFourBarSpec:
+    def _lay_has_a_speed(self) -> Self:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None:
             message = "the speed at the lay needs the speed of the input\ngive input_speed"
             raise refused(message, "input_speed", "GL106")

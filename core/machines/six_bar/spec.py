@@ -1,9 +1,7 @@
 """The design file of a geared six-bar: a loop A B C D E F of six links, and the two trains on it."""
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -51,7 +49,7 @@ class SixTrain(Spec):
         return PINS.index(self.pins[0])
 
     @model_validator(mode="after")
-    def _whole(self) -> SixTrain:
+    def _whole(self) -> Self:
         if any((PINS.index(b) - PINS.index(a)) % 6 != 1 for a, b in pairwise(self.pins)):
             raise refused(
                 "a train's pins follow each other in the order A B C D E F A\nwrite them so, as [F, A]", "pins"
@@ -82,7 +80,7 @@ class SixStart(Spec):
     output: Angle | None = Field(None, description="direction F->E")
 
     @model_validator(mode="after")
-    def _two(self) -> SixStart:
+    def _two(self) -> Self:
         if len(self.given) != 2:
             raise refused(
                 "give the directions of two of coupler_1, coupler_2, coupler_3 and output; the loop closes the others",
@@ -130,7 +128,7 @@ class GearedSixBarSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _swing(self) -> GearedSixBarSpec:
+    def _swing(self) -> Self:
         if self.range is not None and self.range.end <= self.range.start:
             raise refused("the range ends before it starts\ngive a greater end", "range.end")
         return self

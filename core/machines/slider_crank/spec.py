@@ -1,8 +1,6 @@
 """The design file of a slider-crank."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, ValidationInfo, model_validator
 from pydantic_core import PydanticKnownError
@@ -63,7 +61,7 @@ class SliderCrankSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _of_time_ratio(self) -> SliderCrankSpec:
+    def _of_time_ratio(self) -> Self:
         if self.quick_return_ratio is None:
             return self
         if self.stroke is None:
@@ -75,7 +73,7 @@ class SliderCrankSpec(DrivenSpec):
         return self
 
     @model_validator(mode="after")
-    def _one_size(self) -> SliderCrankSpec:
+    def _one_size(self) -> Self:
         if self.quick_return_ratio is not None:
             return self
         require_stroke_or_crank(self.stroke, self.crank)
@@ -102,7 +100,7 @@ class SliderCrankSpec(DrivenSpec):
             return SliderCrank.of_crank(*found)
 
     @model_validator(mode="after")
-    def _reachable(self) -> SliderCrankSpec:
+    def _reachable(self) -> Self:
         if self.rod is not None and self.quick_return_ratio is None:
             require_offset_below_rod(self.rod, self.offset, "offset")
         return self

@@ -1,8 +1,6 @@
 """The design file of a swing gripper."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -78,7 +76,7 @@ class Phases(Spec):
     )
 
     @model_validator(mode="after")
-    def _whole_turn(self) -> Phases:
+    def _whole_turn(self) -> Self:
         given = {key: value for key, value in self._by_key().items() if value is not None}
         total, missing = sum(given.values()), [key for key in self._by_key() if key not in given]
         if self.balance is not None:
@@ -213,7 +211,7 @@ class ClosingSpring(Spec):
     reserve: Annotated[float, unit("N m", ge=0)] = Field(0.0, description="minimum torque that must remain")
 
     @model_validator(mode="after")
-    def _torque_or_levers(self) -> ClosingSpring:
+    def _torque_or_levers(self) -> Self:
         needed = {"arms": self.arms, "angle": self.angle, "preload": self.preload}
         missing = [key for key, value in needed.items() if value is None]
         given = [key for key in (*needed, "rate", "length") if getattr(self, key) is not None]
@@ -269,7 +267,7 @@ class FingerSection(Spec):
     close: FingersClose
 
     @model_validator(mode="after")
-    def _one_after_the_other(self) -> FingerSection:
+    def _one_after_the_other(self) -> Self:
         opened, closing = self.open.from_ + self.open.over, self.close.to - self.close.over
         if opened > closing:
             text = (
@@ -335,7 +333,7 @@ class SwingGripperSpec(TolerancedSpec):
     )
 
     @model_validator(mode="after")
-    def _handover_at_speed(self) -> SwingGripperSpec:
+    def _handover_at_speed(self) -> Self:
         lengths = self.phases.lengths()
         if lengths is None or self.handover is None:
             return self
@@ -346,7 +344,7 @@ class SwingGripperSpec(TolerancedSpec):
         return self
 
     @model_validator(mode="after")
-    def _stop_with_its_sections(self) -> SwingGripperSpec:
+    def _stop_with_its_sections(self) -> Self:
         missing = [key for key in ("cam", "spring", "inertia") if getattr(self, key) is None]
         if self.stop is not None and missing:
             raise refused(f"a stop needs the sections cam, spring and inertia: {', '.join(missing)} missing", "stop")

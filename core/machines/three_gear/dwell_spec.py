@@ -1,8 +1,6 @@
 """What `synth dwell` is asked for, and what fixes crank and frame besides."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -20,7 +18,7 @@ class Placing(Spec):
     )
 
     @model_validator(mode="after")
-    def _one_placing(self) -> Placing:
+    def _one_placing(self) -> Self:
         given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
         if len(given) > 1:
             message = "crank, frame and balanced exclude each other\nkeep one of them"
@@ -38,7 +36,7 @@ class Dwell(DwellBand, Placing):
     )
 
     @model_validator(mode="after")
-    def _one_request(self) -> Dwell:
+    def _one_request(self) -> Self:
         if self.angle is None and self.window is None and self.tolerance is None:
             raise refused("give angle, window or tolerance", "angle", "GL106")
         if self.angle is not None and (self.window is not None or self.tolerance is not None):

@@ -1,7 +1,5 @@
 """The section `loads` of a three-gear four-bar."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,8 +1,6 @@
 """The design file of a three-gear four-bar."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, ClassVar, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeAlias
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -45,7 +43,7 @@ class Gears(TrainKeys):
         return self.crank < 0, False, self.output < 0
 
     @model_validator(mode="after")
-    def _rings_are_larger(self) -> Gears:
+    def _rings_are_larger(self) -> Self:
         for key, teeth in (("crank", self.crank), ("output", self.output)):
             if teeth < 0 and self.idler is not None and -teeth <= self.idler:
                 message = f"a ring gear of {-teeth} teeth does not take an idler of {self.idler}"
@@ -58,7 +56,7 @@ class Gears(TrainKeys):
         return self
 
     @model_validator(mode="after")
-    def _one_ratio(self) -> Gears:
+    def _one_ratio(self) -> Self:
         if self.i3 is not None and self.idler is not None:
             raise refused("i3 and idler exclude each other\nomit i3 or idler", "i3")
         if self.i3 is not None and self.crank != self.output:
@@ -122,7 +120,7 @@ class ThreeGearSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
-    def _one_tolerance(self) -> ThreeGearSpec:
+    def _one_tolerance(self) -> Self:
         if self.dwell_tolerance is not None and self.dwell_backlash is not None:
             raise refused(
                 "dwell_tolerance and dwell_backlash exclude each other\nomit dwell_tolerance or dwell_backlash",
@@ -137,14 +135,14 @@ class ThreeGearSpec(DrivenSpec):
         return self
 
     @model_validator(mode="after")
-    def _lay_has_a_speed(self) -> ThreeGearSpec:
+    def _lay_has_a_speed(self) -> Self:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None and self.speed is None:
             message = "the speed at the lay needs the input's\ngive input_speed"
             raise refused(message, "input_speed", "GL106")
         return self
 
     @model_validator(mode="after")
-    def _one_speed(self) -> ThreeGearSpec:
+    def _one_speed(self) -> Self:
         if (
             self.speed is None
             or self.speed.uniform_angle is not None

@@ -1,8 +1,6 @@
 """Sections of a three-gear four-bar that few of its files have: what the other syntheses are asked for, shafts."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -19,7 +17,7 @@ class BackStep(Placing):
     )
 
     @model_validator(mode="after")
-    def _something(self) -> BackStep:
+    def _something(self) -> Self:
         if self.angle is None and self.crank_angle is None:
             raise refused("give angle, crank_angle or both", "angle", "GL106")
         return self
@@ -38,7 +36,7 @@ class Speed(Placing):
     )
 
     @model_validator(mode="after")
-    def _one_wish(self) -> Speed:
+    def _one_wish(self) -> Self:
         band = [name for name in ("min", "max") if getattr(self, name) is not None]
         even = [name for name in ("uniform_angle", "uniform_tolerance") if getattr(self, name) is not None]
         if band and even:
@@ -64,7 +62,7 @@ class Momentary(Spec):
     )
 
     @model_validator(mode="after")
-    def _one_length(self) -> Momentary:
+    def _one_length(self) -> Self:
         given = [name for name in ("eccentricity", "frame", "gap", "balanced") if getattr(self, name) is not None]
         if not given:
             raise refused("give eccentricity, frame, gap or balanced", "eccentricity", "GL106")

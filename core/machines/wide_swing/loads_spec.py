@@ -1,7 +1,5 @@
 """The section `loads` of a wide swing: inertia and device stand in its own sections."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
 from pydantic import Field, field_validator

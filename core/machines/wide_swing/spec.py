@@ -1,9 +1,7 @@
 """The design file of a wide-swing cam mechanism with an unloading device."""
 
-from __future__ import annotations
-
 import math
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 
@@ -82,7 +80,7 @@ class Pneumatic(Spec):
         return data
 
     @model_validator(mode="after")
-    def _one_size(self) -> Pneumatic:
+    def _one_size(self) -> Self:
         _refuse_reserve(self, "force")
         if self.bore is not None and self.pressure is not None:
             raise refused("bore and pressure exclude each other\nomit bore or pressure: it is a result", "bore")
@@ -134,7 +132,7 @@ class SpringDevice(Spec):
         return value
 
     @model_validator(mode="after")
-    def _one_length(self) -> SpringDevice:
+    def _one_length(self) -> Self:
         _refuse_reserve(self, "rate")
         if self.free_length is not None and self.stretch_ratio is not None:
             raise refused(
@@ -159,7 +157,7 @@ class GravityDevice(Spec):
     reserve: Reserve = 0.0
 
     @model_validator(mode="after")
-    def _one_mass(self) -> GravityDevice:
+    def _one_mass(self) -> Self:
         _refuse_reserve(self, "mass")
         return self
 
@@ -217,7 +215,7 @@ class SwingCycle(Spec):
     )
 
     @model_validator(mode="after")
-    def _one_turn(self) -> SwingCycle:
+    def _one_turn(self) -> Self:
         given = {key: value for key, value in self._by_key().items() if value is not None}
         missing, total = [key for key in self._by_key() if key not in given], math.fsum(given.values())
         if len(missing) > 1:
@@ -368,7 +366,7 @@ class WideSwingSpec(TolerancedSpec):
         return value
 
     @model_validator(mode="after")
-    def _sections_agree(self) -> WideSwingSpec:
+    def _sections_agree(self) -> Self:
         if self.slider is None and self.inertia == 0.0:
             raise refused("inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0", "inertia", "GL108")
         if self.cycle is not None and self.cycle_angle is not None:

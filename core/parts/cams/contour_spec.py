@@ -1,7 +1,5 @@
 """A disc cam that is given by the arcs of its profile, as a key of design files."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator

@@ -1,7 +1,5 @@
 """The motion of a cam follower over a revolution, as a key of design files."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
@@ -33,7 +31,7 @@ class Segment(Spec):
     end_acceleration: Lift | None = Field(None, description="of a polynomial: acceleration at its end, lift per rad^2")
 
     @model_validator(mode="after")
-    def _one_meaning(self) -> Segment:
+    def _one_meaning(self) -> Self:
         if self.return_ is not None:
             for key in ("lift", "law"):
                 if getattr(self, key) is not None:

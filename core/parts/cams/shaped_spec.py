@@ -1,9 +1,7 @@
 """Motion laws that a design file shapes by numbers: end values, polydyne, optimal, solved."""
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -51,7 +49,7 @@ class PolynomialEnds(_WithEnds):
     type: Literal["polynomial"] = Field(description="how the law is shaped")
 
     @model_validator(mode="after")
-    def _alike(self) -> PolynomialEnds:
+    def _alike(self) -> Self:
         start, end = self.start, self.end
         if isinstance(start, list) and isinstance(end, list) and len(start) != len(end):
             raise refused("start and end have as many values each: 3, or 4 with the jerk", "end")
@@ -64,7 +62,7 @@ class HarmonicEnds(_WithEnds):
     type: Literal["harmonic"] = Field(description="how the law is shaped")
 
     @model_validator(mode="after")
-    def _three(self) -> HarmonicEnds:
+    def _three(self) -> Self:
         for key in ("start", "end"):
             if isinstance(value := getattr(self, key), list) and len(value) != 3:
                 raise refused("a harmonic law has s, v and a at its ends: three values", key)
@@ -81,7 +79,7 @@ class Polydyne(Spec):
     speed: Rate | None = Field(None, description="speed for which it is shaped; default: the design's")
 
     @model_validator(mode="after")
-    def _one(self) -> Polydyne:
+    def _one(self) -> Self:
         if self.periods is not None and self.frequency is not None:
             raise refused("periods and frequency say the same\nomit periods or frequency", "frequency")
         if self.periods is not None and self.speed is not None:
@@ -118,7 +116,7 @@ class OptimalLaw(Spec):
     KEYS: ClassVar[tuple[str, ...]] = ("velocity", "acceleration", "jerk")
 
     @model_validator(mode="after")
-    def _meaning(self) -> OptimalLaw:
+    def _meaning(self) -> Self:
         if (self.band is None) != (self.minimize != "residual"):
             raise refused("minimize: residual needs band, and nothing else has one", "band")
         if self.band is not None and self.band[0] >= self.band[1]:
@@ -162,7 +160,7 @@ class TableLaw(Spec):
     file: str | None = Field(None, description="CSV file with these columns, instead of points")
 
     @model_validator(mode="after")
-    def _ascends(self) -> TableLaw:
+    def _ascends(self) -> Self:
         if self.points is not None and self.file is not None:
             raise refused("points and file exclude each other\nomit points or file", "file")
         if self.points is None:

@@ -1,7 +1,5 @@
 """What a synthesis is needed where the output is to stand within a tolerance."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Limits, value types and refusals that the specs of several geared linkages share."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

@@ -1,8 +1,6 @@
 """Sections that the design files of several geared linkages may have, each imported by the machines that read them."""
 
-from __future__ import annotations
-
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
@@ -54,7 +52,7 @@ class Feed(Spec):
     lay: FrontLay | None = Field(None, description="the front lay, where the sheet must be slow; needs input_speed")
 
     @model_validator(mode="after")
-    def _one_form(self) -> Feed:
+    def _one_form(self) -> Self:
         chain = [name for name in ("pitch", "teeth") if getattr(self, name) is not None]
         if self.step is not None:
             return self._of_step()
@@ -69,7 +67,7 @@ class Feed(Spec):
             raise refused("a chain has no belt_thickness\nomit it", "belt_thickness")
         return self
 
-    def _of_step(self) -> Feed:
+    def _of_step(self) -> Self:
         """A step leaves one size to be found."""
         ratio = "ratio" in self.model_fields_set
         if self.radius is not None:

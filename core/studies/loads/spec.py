@@ -1,10 +1,8 @@
 """The section `loads` of a design file: what all kinds share; each machine names its own links."""
 
-from __future__ import annotations
-
 import itertools
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -44,7 +42,7 @@ class Zone(Spec):
     value: Number = Field(description="torque (N m) or force (N) in it")
 
     @model_validator(mode="after")
-    def _some_width(self) -> Zone:
+    def _some_width(self) -> Self:
         if self.start == self.end:
             raise refused("this zone is empty: it ends where it starts", "to")
         return self
@@ -62,7 +60,7 @@ class Course(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> Course:
+    def _one(self) -> Self:
         if (self.table is None) == (self.zones is None):
             raise refused("give either table or zones", "zones" if self.table else "table")
         if self.table is not None:
@@ -103,7 +101,7 @@ class Load(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> Load:
+    def _one(self) -> Self:
         given = [name for name in ("torque", "force", "resistance") if getattr(self, name) is not None]
         if len(given) != 1:
             message = "give torque, force or resistance" if not given else "give one of torque, force and resistance"
@@ -155,7 +153,7 @@ class Flywheel(Spec):
     )
 
     @model_validator(mode="after")
-    def _something(self) -> Flywheel:
+    def _something(self) -> Self:
         if self.inertia is None and self.fluctuation is None:
             raise refused("give inertia, fluctuation or both", "inertia", "GL106")
         return self
@@ -183,7 +181,7 @@ class Motor(Spec):
     )
 
     @model_validator(mode="after")
-    def _characteristic(self) -> Motor:
+    def _characteristic(self) -> Self:
         if self.slope is None and (self.rated_speed is None or self.rated_torque is None):
             raise refused("give rated_speed and rated_torque, or slope", "rated_speed", "GL106")
         if self.slope is not None and self.rated_speed is not None:
@@ -212,7 +210,7 @@ class Bearing(Spec):
     rolling_bodies: Annotated[int, unit("1", ge=3, le=1000)] | None = Field(None, description="rolling bodies in a row")
 
     @model_validator(mode="after")
-    def _complete(self) -> Bearing:
+    def _complete(self) -> Self:
         if self.kind == "plain" and (self.width is None or self.diameter is None):
             raise refused("a plain bearing needs width and diameter", "kind", "GL106")
         rating = next((name for name in ("life", "dynamic_rating") if getattr(self, name) is not None), None)
@@ -249,7 +247,7 @@ class Vibration(Spec):
     )
 
     @model_validator(mode="after")
-    def _one(self) -> Vibration:
+    def _one(self) -> Self:
         if (self.frequency is None) == (self.stiffness is None):
             raise refused("give either frequency or stiffness", "frequency", "GL106")
         return self

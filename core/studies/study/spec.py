@@ -1,8 +1,6 @@
 """The study file: which designs, what is sought, what must hold."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -36,7 +34,7 @@ class VariableSpec(Spec):
     also: list[str] = Field([], description="keys that always take the same value")
 
     @model_validator(mode="after")
-    def _one_form(self) -> VariableSpec:
+    def _one_form(self) -> Self:
         if self.values is not None:
             for name in ("from_", "to", "step", "points", "times"):
                 if getattr(self, name) is not None:
@@ -109,7 +107,7 @@ class StudySpec(DesignSpec):
     refine: Refine = Refine.model_construct()
 
     @model_validator(mode="after")
-    def _consistent(self) -> StudySpec:
+    def _consistent(self) -> Self:
         if (self.of is None) == (self.design is None):
             raise refused("give `of` or `design`, exactly one", "of" if self.of is not None else "design", "GL150")
         objectives = [*self.minimize, *self.maximize]

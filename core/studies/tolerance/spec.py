@@ -1,8 +1,6 @@
 """The section `tolerance` of a design file."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -78,7 +76,7 @@ class ToleranceSource(Spec):
         return next(name for name in _SIZES if getattr(self, name if name != "class" else "class_") is not None)
 
     @model_validator(mode="after")
-    def _one_form(self) -> ToleranceSource:
+    def _one_form(self) -> Self:
         given = [name for name in _SIZES if getattr(self, name if name != "class" else "class_") is not None]
         if self.upper is not None and self.lower is None:
             raise refused("upper without lower\ngive both, or plus_minus", code="GL171")
@@ -138,7 +136,7 @@ class Correlation(Spec):
     )
 
     @model_validator(mode="after")
-    def _a_correlation(self) -> Correlation:
+    def _a_correlation(self) -> Self:
         if not -1.0 <= self.rho <= 1.0:
             raise refused(f"rho: {self.rho:g} (limit -1 to 1)\ngive a correlation within -1 and 1", "rho", "GL176")
         return self
@@ -174,7 +172,7 @@ class Tolerance(Spec):
     sobol: bool = Field(False, description="Sobol' indices in the table contributions (--sobol)")
 
     @model_validator(mode="after")
-    def _known_sources(self) -> Tolerance:
+    def _known_sources(self) -> Self:
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
                 raise refused(

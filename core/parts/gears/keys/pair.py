@@ -1,7 +1,5 @@
 """Keys of a gear pair at a given centre distance, as inside a machine: what its drawing needs beside the teeth."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator

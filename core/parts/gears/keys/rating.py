@@ -1,7 +1,5 @@
 """The section `rating` of gears: what ISO 6336 needs to compute its factors."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator

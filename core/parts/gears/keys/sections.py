@@ -1,9 +1,7 @@
 """Keys of a design file that describe gears beyond their teeth: tools, tips, widths."""
 
-from __future__ import annotations
-
 import re
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -67,7 +65,7 @@ class AllowanceSpec(Spec):
     lower: TwoAllowances | None = Field(None, description="lower allowances E_sni of gear 1 and 2 [mm]")
 
     @model_validator(mode="after")
-    def _one_way(self) -> AllowanceSpec:
+    def _one_way(self) -> Self:
         limits = self.upper is not None or self.lower is not None
         if self.series is not None and limits:
             message = "series excludes upper and lower\nomit series, or upper and lower"
@@ -110,7 +108,7 @@ class LoadSpec(Spec):
     factors: FactorSpec = FactorSpec.model_construct()
 
     @model_validator(mode="after")
-    def _one_load(self) -> LoadSpec:
+    def _one_load(self) -> Self:
         given = [name for name in ("torque", "power", "tangential_force") if getattr(self, name) is not None]
         if not given:
             raise refused("give torque, power with speed, or tangential_force", "torque", "GL106")

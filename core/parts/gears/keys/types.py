@@ -1,7 +1,5 @@
 """Numbers, words and materials of design files that describe gears, with their bounds and units."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Sections of a train's keys, with an entry for each gear where they are lists: tools, allowances, load, material."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator

@@ -1,7 +1,5 @@
 """Keys of the gears of a train, lists with an entry per gear: what teeth and drawings need beside the numbers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from itertools import pairwise
@@ -184,7 +182,7 @@ class TrainKeys(ToothKeys):
         """Whether the profile shifts of one of the first meshes do not cancel, which moves its centre distance."""
         return any(self.shift(i) + self.shift(i + 1) for i in range(meshes))
 
-    def of(self, one: int, other: int, module: float, pressure_angle: float) -> PairKeys:
+    def of(self, one: int, other: int, module: float, pressure_angle: float) -> "PairKeys":
         """The keys of the mesh of two gears by their places in the lists, but for the load.
 
         Parameters

@@ -1,7 +1,5 @@
 """The section `rating` of a train: that of a pair, with an entry for each gear where it has lists."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
 from pydantic import Field
