@@ -141,8 +141,8 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
             with refusals_located(loaded):
                 kept.append(design := designs.of(command))
                 outline = Outline() if design.checks_need_search else design.outline(command)
-                design.prepare(design.decisive(command))
                 names = [name for name in outline.checks if (cls, name) not in done]
+                design.prepare([*design.decisive(command), *names])
                 done |= {(cls, name) for name in names}
                 for check in (check for name in names for check in design.findings(command, name)):
                     yield Finding(check.status, _place(loaded, check), command, check)

@@ -495,7 +495,7 @@ class Design:
         if findings_only:
             self.require(command)
         else:
-            self._prepare_as_step(outline.quantities)
+            self._prepare_as_step((*outline.quantities, *outline.checks))
             found = [self.quantity(name) for name in outline.quantities]
         shown = tuple(quantity for quantity in found if quantity is not None)
         checks = [check for name in outline.checks for check in self.findings(command, name)]

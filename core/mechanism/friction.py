@@ -334,14 +334,25 @@ def solution_of(
     return Solution(mechanism, system, found, used)
 
 
-def _rubbing_solution(
-    mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, speed: float, friction: Coefficients
+def settled(
+    mechanism: Mechanism,
+    masses: Masses,
+    applied: Applied,
+    gravity: complex,
+    speed: float,
+    friction: Coefficients | None,
 ) -> tuple[Solution, Reals]:
     """The solution with the rollers that carry once there is friction, and the sizes that make themselves.
 
+    Raises
+        NoSolution - where the system is singular
+        SelfLocking - where the mechanism locks itself
     Notes
         Where the friction outweighs what a pair of rollers bears, the other roller carries than without it.
     """
+    if friction is None:
+        found = solution_of(mechanism, masses, applied, gravity, speed, None)
+        return found, np.abs(found.rubbing.free[found.rubbing.places[:, 0]]).T
     found = solution_of(mechanism, masses, applied, gravity, speed, friction)
     for _ in range(_CHANGES):
         sizes = found.rubbing.settled()
@@ -374,32 +385,19 @@ def _exchange(solved: Reals, new: int, place: int, pulled: Mask) -> None:
             solved[k, place] = np.where(pulled, share, solved[k, place])
 
 
-def with_friction(
-    mechanism: Mechanism,
-    masses: Masses,
-    applied: Applied,
-    gravity: complex,
-    speed: float,
-    friction: Coefficients | None,
-) -> Reactions:
+def with_friction(found: Solution, sizes: Reals, friction: Coefficients | None, speed: float) -> Reactions:
     """All joint and tooth forces and the input torque, by Newton and Euler; with friction where there is any.
 
     sum F = m (a - g),  sum (P - G) x F + sum T = J al    for every link
 
-    Raises
-        NoSolution - where the system is singular
-        SelfLocking - where the mechanism locks itself
+    Parameters
+        found, sizes : what `settled` gives
     Notes
         The separating force of a mesh acts along the link that joins its axes (or into a guide), so it changes no
         tangential force. Relative error of the largest force about eps/sin(transmission angle).
     Source
         Newton and Euler
     """
-    if friction is None:
-        found = solution_of(mechanism, masses, applied, gravity, speed, None)
-        sizes = np.abs(found.rubbing.free[found.rubbing.places[:, 0]]).T
-    else:
-        found, sizes = _rubbing_solution(mechanism, masses, applied, gravity, speed, friction)
     return _driven(_sided(found.system.reactions(found.rubbing.unknowns(sizes))), friction, speed)
 
 
@@ -419,18 +417,6 @@ def _driven(found: Reactions, friction: Coefficients | None, speed: float) -> Re
         return found
     lost = next(friction.of(each) for each in mechanism.connections if each.name == mechanism.drive)
     return replace(found, torque=np.where(found.torque * speed < 0.0, (1.0 - lost) * found.torque, found.torque))
-
-
-def passes_ratio(
-    mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, speed: float, friction: Coefficients
-) -> Reals:
-    """How near the mechanism is to locking itself, at each row: what a pass of the friction leaves of a change.
-
-    Raises
-        SelfLocking
-    """
-    found, sizes = _rubbing_solution(mechanism, masses, applied, gravity, speed, friction)
-    return found.rubbing.ratio(sizes)
 
 
 class Unit(NamedTuple):

@@ -301,6 +301,18 @@ def extremes_over(
     return extremes_of_parts(wanted, [(start, end)], joints=joints, samples=samples, fewest=fewest)[0]
 
 
+def places_over(
+    start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048, fewest: int = 33
+) -> Reals:
+    """The places at which the searches of extremes_over begin.
+
+    Example
+        >>> [round(float(place), 6) for place in places_over(0.0, 1.0, samples=2, fewest=3)]
+        [0.0, 0.5, 1.0]
+    """
+    return _grid_of(start, end, joints, samples, fewest).x
+
+
 def extremes_of_parts(
     wanted: Sequence[tuple[Function, bool]],
     parts: Sequence[tuple[float, float]],

@@ -253,7 +253,7 @@ class PressLoads(CamLoadsDesign):
 
     def wanted(self, quantity: str) -> Iterable[Wanted]:
         """The extremes that a quantity needs."""
-        if quantity == "preload_needed" and self.section.roller is not None:
+        if quantity in ("preload_needed", "preload") and self.section.roller is not None:
             return (("preload", True),)
         return super().wanted(quantity)
 

@@ -333,11 +333,16 @@ class LoadsDesign(Design):
     def extremes_of(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
         """Maximum or minimum values over the period of functions of the input angle, refined."""
         from gearlink.core.numerics.extremes import extremes_over
+
+        return extremes_over(wanted, 0.0, self.machine.period, **self._looked_at)
+
+    @cached_property
+    def _looked_at(self) -> dict[str, Any]:
+        """Where searches over the period begin: at a place a degree, at more where there are many breaks."""
         from gearlink.core.studies.loads.panels import fewest_samples
 
-        machine = self.machine
-        samples, fewest = 360 * self.turns, fewest_samples(machine.breaks)
-        return extremes_over(wanted, 0.0, machine.period, joints=machine.breaks, samples=samples, fewest=fewest)
+        breaks = self.machine.breaks
+        return {"joints": breaks, "samples": 360 * self.turns, "fewest": fewest_samples(breaks)}
 
     @cached_property
     def _found(self) -> dict[Wanted, Extreme]:
@@ -352,6 +357,8 @@ class LoadsDesign(Design):
 
     def course(self, name: str) -> Callable[[Reals], Reals]:
         """A function of the input angle whose extremes are results: torque, inertia, shaking or a joint's force."""
+        if name == "locking":
+            return self.machine.passes_ratio
         if name in ("shaking_force", "shaking_moment"):
             part = 0 if name == "shaking_force" else 1
             return lambda phi: abs(self.shaking(phi)[part])
@@ -362,7 +369,9 @@ class LoadsDesign(Design):
         return self.machine.torque if name == "torque" else lambda phi: self.machine.reduced(phi).inertia
 
     def wanted(self, quantity: str) -> Iterable[Wanted]:
-        """The extremes that a quantity needs."""
+        """The extremes that a quantity or a check needs."""
+        if quantity == "self-locking":
+            return (("locking", True),) if self.machine.friction is not None else ()
         joint, dot, of_joint = quantity.partition(".")
         if joint in self.other_bearings:
             return ()
@@ -562,14 +571,16 @@ class LoadsDesign(Design):
 
     @cached_property
     def power_identity(self) -> float:
-        """Largest difference of the two input torques over the largest of them.
+        """Largest difference of the two input torques over the largest of them, where the search of extremes begins.
 
         Notes
             Where the parts of the torque cancel to a millionth, as those of an unbalanced wheel that turns evenly, a
             millionth of the parts takes its place: both ways round at 1e-16 of them.
         """
+        from gearlink.core.numerics.extremes import places_over
+
         machine, apart, sizes = self.machine, [0.0], [0.0]
-        phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
+        phi = places_over(0.0, machine.period, **self._looked_at)
         if machine.friction is not None and machine.locks:
             machine.reactions(phi)  # which says so
         for rows, block in machine.by_blocks(phi.size) if phi.size > 2 * BLOCK else [(slice(None), machine)]:
@@ -590,7 +601,7 @@ class LoadsDesign(Design):
         if self.locked:
             return self.machine.locking
         try:
-            found = self.extreme(self.machine.passes_ratio)
+            found = self.extreme_of("locking")
         except SelfLocking:
             return float("inf"), None
         return found.value, found.place % self.machine.period

@@ -17,7 +17,7 @@ import numpy as np
 
 from gearlink.core.base.results import keep, kept
 from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
-from gearlink.core.mechanism.friction import LOCKED, LOCKS, Coefficients, SelfLocking, passes_ratio, with_friction
+from gearlink.core.mechanism.friction import LOCKED, LOCKS, Coefficients, SelfLocking, Solution, settled, with_friction
 from gearlink.core.mechanism.joints import Coupling, Pin
 from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.mechanism.motion import Motion
@@ -82,6 +82,7 @@ class Machine:
     more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, init=False, repr=False)
     kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, init=False, repr=False)
+    kept_last: dict[bytes, tuple[Solution, Reals]] = field(default_factory=dict, init=False, repr=False)
     kept_sums: dict[str, dict[tuple[str, bytes], Any]] = field(default_factory=dict, init=False, repr=False)
 
     @property
@@ -152,7 +153,17 @@ class Machine:
     def _reactions(self, phi: Reals) -> Reactions:
         if phi.size > _BLOCK:  # for the memory's sake
             return self._by_blocks(phi)
-        return with_friction(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+        return with_friction(*self._settled(phi), self.friction, self.speed)
+
+    def _settled(self, phi: Reals) -> tuple[Solution, Reals]:
+        """The equations solved there; the last answer is kept, since forces and the nearness of locking share it."""
+        key = phi.tobytes()
+        found = self.kept_last.get(key)
+        if found is None:
+            found = settled(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+            self.kept_last.clear()
+            self.kept_last[key] = found
+        return found
 
     def _by_blocks(self, phi: Reals) -> Reactions:
         """The same of many rows; of a block nothing is kept but its forces."""
@@ -213,7 +224,8 @@ class Machine:
             SelfLocking - where there are no forces with which it moves
         """
         assert self.friction is not None, "needed only where there is friction"
-        return passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+        found, sizes = self._settled(phi)
+        return found.rubbing.ratio(sizes)
 
     def rubbing(self, share: float) -> Machine:
         """The machine with a share of its friction."""

@@ -21,7 +21,7 @@ from sweeps import mostly_slow
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism.dynamics import Force, Mass, reduced
-from gearlink.core.mechanism.friction import with_friction
+from gearlink.core.mechanism.friction import settled, with_friction
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed
@@ -160,7 +160,7 @@ def test_andrews_mechanism_needs_the_torque_that_drives_it() -> None:
     ends = [mechanism.links["3"].at(-35j), mechanism.links["4"].at(-20j), mechanism.links["6"].at(20.0)]
     for end in ends:  # the published state closes the loops
         assert complex(end.value[0]) == pytest.approx(complex(mechanism.links["2"].at(-28.0).value[0]), abs=1e-7)
-    found = with_friction(mechanism, masses, applied, 0j, 1.0, None)
+    found = with_friction(*settled(mechanism, masses, applied, 0j, 1.0, None), None, 1.0)
     assert found.torque[0] == pytest.approx(0.033, rel=2e-8)
     power = reduced(mechanism, masses, applied, 0j).torque(1.0)[0]
     assert power / mechanism.links["1"].turn.first[0] == pytest.approx(0.033, rel=2e-8)

@@ -239,13 +239,13 @@ def test_many_turns_have_their_forces_computed_once_for_all_that_integrates_them
     """7 turns: mean, rms, energy and what pins bear look at the same nodes, and changes of sign at the same grid."""
     from gearlink.core.studies.loads import machine
 
-    asked, solve = [0], machine.with_friction
+    asked, solve = [0], machine.settled
 
     def counted(mechanism: Any, *given: Any) -> Any:
         asked[0] += mechanism.rows
         return solve(mechanism, *given)
 
-    monkeypatch.setattr(machine, "with_friction", counted)
+    monkeypatch.setattr(machine, "settled", counted)
     keys = {"gears__idler": 70, "gears__crank": 40, "loads__links__idler__center": [3.0, 0.0]}
     design = factory.design(FEED, command="loads", **keys, loads__friction={"pins": 0.03, "pin_radius": 8})
     assert design.turns == 7
