@@ -320,12 +320,14 @@ def extremes_of_parts(
     joints: Sequence[float] = (),
     samples: int = 2048,
     fewest: int = 33,
+    sought: Sequence[Sequence[int]] = (),
 ) -> list[list[Extreme]]:
     """Extremes of several functions over each of several intervals, searched together.
 
     Parameters
         wanted, joints, samples, fewest : as of extremes_over; samples are those of each interval
         parts : (start, end) of the intervals
+        sought : of each interval the numbers of those that are wanted there; all where it is left out
     Returns
         extremes : those of extremes_over for each interval
     Example
@@ -338,22 +340,24 @@ def extremes_of_parts(
     signs = [1.0 if greatest else -1.0 for _, greatest in wanted]
     functions = list(dict.fromkeys(f for f, _ in wanted))
     of = [functions.index(f) for f, _ in wanted]
+    some = sought or [range(len(wanted))] * len(parts)
 
-    def answer(asked: _Asked, values: dict[int, Reals], rows: slice) -> Reals:
+    def answer(number: int, asked: _Asked, values: dict[int, Reals], rows: slice) -> Reals:
         if asked.places.ndim == 1:
-            return np.array([values[k][rows] * sign for k, sign in zip(of, signs, strict=True)])
+            return np.array([values[of[k]][rows] * signs[k] for k in some[number]])
         found = np.empty(asked.places.shape)
         for search, part in _parts(asked.of):
-            np.multiply(values[of[search]][rows].reshape(found.shape)[part], signs[search], out=found[part])
+            k = some[number][search]
+            np.multiply(values[of[k]][rows].reshape(found.shape)[part], signs[k], out=found[part])
         return found
 
     grids = [_grid_of(start, end, joints, samples, fewest) for start, end in parts]
-    searches = [_maxima(len(wanted), grid) for grid in grids]
+    searches = [_maxima(len(numbers), grid) for numbers, grid in zip(some, grids, strict=True)]
     asked = dict(enumerate(map(next, searches)))
     tops: list[list[Extreme]] = [[]] * len(parts)
     while asked:
         rounds = list(asked.items())
-        wanted_now = list(dict.fromkeys(of[search] for _, each in rounds for search in distinct(each.of).tolist()))
+        wanted_now = list(dict.fromkeys(of[some[k][i]] for k, each in rounds for i in distinct(each.of).tolist()))
         values = dict(zip(wanted_now, _at_once([functions[k] for k in wanted_now], asked.values()), strict=True))
         if any(v.ndim > 1 for v in values.values()):  # a row for each of many, on the grids
             ends = np.cumsum([grid.x.shape[-1] for grid in grids]).tolist()
@@ -366,16 +370,13 @@ def extremes_of_parts(
         for number, each in rounds:
             rows = slice(first, first := first + each.places.size)
             try:
-                asked[number] = searches[number].send(answer(each, values, rows))
+                asked[number] = searches[number].send(answer(number, each, values, rows))
             except StopIteration as found:
                 tops[number] = found.value
                 del asked[number]
     return [
-        [
-            top if greatest else Extreme(0.0 - top.value, top.place)
-            for top, (_, greatest) in zip(found, wanted, strict=True)
-        ]
-        for found in tops
+        [top if signs[k] > 0.0 else Extreme(0.0 - top.value, top.place) for top, k in zip(found, numbers, strict=True)]
+        for found, numbers in zip(tops, some, strict=True)
     ]
 
 

@@ -32,6 +32,7 @@ from gearlink.core.machines.wide_swing.strokes import AnyCam, Parts, Stroke, str
 from gearlink.core.mechanism.dynamics import Force, Mass, Torque
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.studies import codes
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.cams import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
@@ -97,9 +98,12 @@ class SwingStroke:
 
     def force(self, k: Reals) -> Reals:
         """Force of the roller on its cam [N], out of the reactions; at the very end that before friction turns back."""
-        last = self.start + self.width - 2.0 * TURNING_BACK
-        found: Reals = self.loads.machine.reactions(np.minimum(self.angle(k), last)).unknowns["roller"][0]
+        found: Reals = self.loads.machine.reactions(self.pressing_angle(k)).unknowns["roller"][0]
         return found
+
+    def pressing_angle(self, k: Reals) -> Reals:
+        """Input angle at which the force is looked at [rad]."""
+        return np.minimum(self.angle(k), self.start + self.width - 2.0 * TURNING_BACK)
 
     def relative_radius(self, k: Reals) -> Reals:
         """R = r_g (1 - r_g kappa) of roller and profile [mm], kappa positive where the body is convex."""
@@ -163,23 +167,10 @@ class SwingStroke:
         parts = self.curved_parts if curved else self.parts
         return _extremes({"greatest": (f, True)}, parts)["greatest"].value
 
-    @cached_property
+    @property
     def pressed(self) -> dict[str, Extreme]:
-        """Maximum force, pressure and depth of the shear, and the minimum force, where the roller touches.
-
-        Notes
-            Searched together, so that the machine under its loads is computed once for all of them.
-        """
-        of_force: Wanted = {"force": (lambda k: np.abs(self.force(k)), True), "least_force": (self.force, False)}
-        names = ("pressure",) if self.loads.spec.drive is not None else ("pressure", "shear_depth")
-        has_width = self.loads.section.roller is not None
-        of_contact: Wanted = {name: (self._of_contact(name), True) for name in names if has_width}
-        if self.curved_parts == self.parts:
-            return _extremes(of_force | of_contact, self.parts)
-        return _extremes(of_force, self.parts) | _extremes(of_contact, self.curved_parts)
-
-    def _of_contact(self, name: str) -> Callable[[Reals], Reals]:
-        return lambda k: np.asarray(getattr(self._contact(k), name))
+        """Maximum force, pressure and depth of the shear, and the minimum force, where the roller touches."""
+        return self.loads.pressing.of_strokes[self.loads.strokes.index(self)]
 
     @cached_property
     def shear_depth_at_greatest_pressure(self) -> float:
@@ -435,11 +426,81 @@ def _run(stroke: SwingStroke, exponent: float) -> Reals:
     return found
 
 
+class StrokesInARow:
+    """All strokes one after the other, each over the places 2 i + k, so that a search looks at all of them at once.
+
+    Parameters
+        loads : WideSwingLoads
+    """
+
+    def __init__(self, loads: WideSwingLoads) -> None:
+        self.loads, self.strokes = loads, loads.strokes
+        self.force, self.contact = kept_last(self._force), kept_last(self._contact)
+
+    def _each(self, of: Callable[[SwingStroke, Reals], Reals], places: Reals) -> Reals:
+        """What the stroke of each place has there."""
+        number, found = np.floor(0.5 * places), np.empty(places.shape)
+        for i, stroke in enumerate(self.strokes):
+            own = number == i
+            if own.any():
+                found[own] = of(stroke, places[own] - 2.0 * i)
+        return found
+
+    def _force(self, places: Reals) -> Reals:
+        angle = self._each(SwingStroke.pressing_angle, places)
+        found: Reals = self.loads.machine.reactions(angle).unknowns["roller"][0]
+        return found
+
+    def _contact(self, places: Reals) -> LineContact | None:
+        return contact_of(self.loads.section, self.force(places), self._each(SwingStroke.relative_radius, places))
+
+    def pressed(self) -> list[dict[str, Extreme]]:
+        """Extremes of force, pressure and depth of the shear of each stroke, where the roller touches."""
+        wanted: Wanted = {"force": (lambda at: np.abs(self.force(at)), True), "least_force": (self.force, False)}
+        of_force = len(wanted)
+        names = ("pressure",) if self.loads.spec.drive is not None else ("pressure", "shear_depth")
+        if self.loads.section.roller is not None:
+            wanted |= {name: (partial(self._of_contact, name), True) for name in names}
+        every = range(len(wanted))
+        asked: list[tuple[int, tuple[float, float], range]] = []
+        for i, stroke in enumerate(self.strokes):
+            parts, curved = stroke.parts, stroke.curved_parts
+            if parts == curved:
+                asked += [(i, part, every) for part in parts]
+            else:
+                asked += [(i, part, every[:of_force]) for part in parts]
+                asked += [(i, part, every[of_force:]) for part in curved if every[of_force:]]
+        return self._sought(wanted, asked)
+
+    def _of_contact(self, name: str, places: Reals) -> Reals:
+        return np.asarray(getattr(self.contact(places), name))
+
+    def _sought(self, wanted: Wanted, asked: list[tuple[int, tuple[float, float], range]]) -> list[dict[str, Extreme]]:
+        """Extremes by stroke; of each part of one those whose numbers are given."""
+        names = list(wanted)
+        parts, numbers = (
+            [(2.0 * i + start, 2.0 * i + end) for i, (start, end), _ in asked],
+            [some for *_, some in asked],
+        )
+        found: list[dict[str, Extreme]] = [{} for _ in self.strokes]
+        tops = extremes_of_parts(list(wanted.values()), parts, samples=128, sought=numbers)
+        for (i, _, some), of_part in zip(asked, tops, strict=True):
+            for name, top in zip([names[k] for k in some], of_part, strict=True):
+                better, at = max if wanted[name][1] else min, top._replace(place=top.place - 2.0 * i)
+                found[i][name] = better(found[i].get(name, at), at, key=lambda extreme: extreme.value)
+        return found
+
+
 class Pressing:
     """Forces and pressures of rollers and cams; every result is computed when it is read."""
 
     def __init__(self, loads: WideSwingLoads) -> None:
         self.loads = loads
+
+    @cached_property
+    def of_strokes(self) -> list[dict[str, Extreme]]:
+        """What `SwingStroke.pressed` gives of each stroke; the machine is computed once a round for all of it."""
+        return StrokesInARow(self.loads).pressed()
 
     @cached_property
     def rests(self) -> tuple[SwingRest, ...]:
