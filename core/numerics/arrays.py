@@ -55,6 +55,17 @@ def distinct(values: ArrayLike) -> NDArray[Any]:
     return found[first]
 
 
+def median(values: Reals) -> float:
+    """The middle value, of an even number the mean of both.
+
+    Example
+        >>> median(np.array([3.0, 1.0, 2.0])), median(np.array([1.0, 4.0]))
+        (2.0, 2.5)
+    """
+    found = np.sort(values)  # np.median imports numpy.ma
+    return 0.5 * float(found[(found.size - 1) // 2] + found[found.size // 2])
+
+
 def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
     """Angles that divide turns into equal steps, from 0.
 

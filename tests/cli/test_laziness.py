@@ -176,6 +176,13 @@ def test_checks_of_scalar_designs_import_no_numpy() -> None:
     assert not packages(loaded_after(*CHECKS)) & {"numpy", "scipy", "matplotlib"}
 
 
+def test_no_check_imports_masked_arrays() -> None:
+    """`np.unique` and `np.median` would, for a hundredth of a second."""
+    lines = ("planar_watt", "planar_bed_chain", "measured_cam", "studies/dwell_feed")
+    (modules,) = modules_after("check " + " ".join(f"designs/{name}.yaml" for name in lines))
+    assert "numpy" in modules and "numpy.ma" not in modules
+
+
 def test_help_imports_no_models() -> None:
     *_, modules = modules_after("--help", "synth --help")
     assert "numpy" not in modules

@@ -23,7 +23,7 @@ from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Place
 from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign, found_forces
-from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
+from gearlink.core.numerics.arrays import Points, Reals, median, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, greatest, least_convex_radius, maximum_over, minimum_over
 from gearlink.core.parts.cams.disc_cam import DiscCam
 from gearlink.core.parts.cams.follower_motion import Stroke
@@ -356,7 +356,7 @@ def phases_of(value: Reals, tolerance: float) -> list[MeasuredPhase]:
         cuts = [*turns, turns[0] + count] if turns else []
         return sorted(_stroke(value, a, b, *value[[a % count, b % count]].tolist()) for a, b in pairwise(cuts))
     inside = [value[np.arange(start, start + length) % count] for start, length in dwells]
-    levels = [float(np.median(each)) for each in inside]
+    levels = [median(each) for each in inside]
     found: list[list[MeasuredPhase]] = []
     for k, (start, length) in enumerate(dwells):
         after = (k + 1) % len(dwells)

@@ -33,7 +33,7 @@ from gearlink.core.machines.planar.system import (
 )
 from gearlink.core.mechanism.blocks import Block
 from gearlink.core.mechanism.follow import JAM, MOST_TURNS, TURN, Place, Walk
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, distinct, median
 from gearlink.core.numerics.roots_sweep import newton_closed
 
 if TYPE_CHECKING:
@@ -318,21 +318,21 @@ class Course:
     @cached_property
     def grid(self) -> Reals:
         """Inputs next to which functions of the motion are smooth: dense where dead centres are near."""
-        return np.unique(np.concatenate([self._even, self.joints]))
+        return distinct(np.concatenate([self._even, self.joints]))
 
     @cached_property
     def _even(self) -> Reals:
         places = self.walk.rows[:, 0] / self._scale
         inside = places[(places >= self.start) & (places <= self.end)]
         ends = np.array([self.start, self.end])
-        return np.unique(np.concatenate([ends, np.linspace(self.start, self.end, self.samples + 1), inside]))
+        return distinct(np.concatenate([ends, np.linspace(self.start, self.end, self.samples + 1), inside]))
 
     @property
     def samples(self) -> int:
         """Points of an even grid on which the motion is smooth."""
         count = self.system.unknowns
         rates = self.walk.rows[:, 1 + count :]
-        fastest = max(1.0, float(np.median(np.abs(rates[:, 2::3]).max(axis=1)))) if not self.by_slide else 1.0
+        fastest = max(1.0, median(np.abs(rates[:, 2::3]).max(axis=1))) if not self.by_slide else 1.0
         turns = (self.end - self.start) / TURN if not self.by_slide else 1.0
         return max(72, math.ceil(360.0 * min(fastest, 20.0) * turns))
 

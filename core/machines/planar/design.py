@@ -34,6 +34,7 @@ from gearlink.core.machines.planar.outputs import RATES, Moved, moved, point_out
 from gearlink.core.machines.planar.structure import Structure
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
+from gearlink.core.numerics.arrays import distinct
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import ASSEMBLY, CLOSURE
@@ -128,13 +129,13 @@ def length(course: Course, x_of: Moved, y_of: Moved) -> float:
         return np.asarray(np.hypot(*rates)).reshape(q.shape)
 
     grid = course.grid
-    edges = np.unique(np.concatenate([grid[::_STEPS], grid[-1:], places]))
+    edges = distinct(np.concatenate([grid[::_STEPS], grid[-1:], places]))
     found = speeds(edges[:-1], edges[1:])
     size = np.abs(found) @ w
     tail = np.abs(found @ (w[:, None] * legendre.legvander(x, x.size - 1)[:, -2:])).max(axis=1)
     rough = tail > _ROUGH * size
     total = float(np.sum(0.5 * np.diff(edges)[~rough] * (found[~rough] @ w)))
-    fine = np.unique(np.concatenate([grid, places]))
+    fine = distinct(np.concatenate([grid, places]))
     inside = rough[np.searchsorted(edges, fine[:-1], side="right") - 1]
     low, high = fine[:-1][inside], fine[1:][inside]
     return total + float(np.sum(0.5 * (high - low) * (speeds(low, high) @ w))) if low.size else total

@@ -44,7 +44,7 @@ from gearlink.core.machines.planar.system import (
     meshes_at_rest,
     split,
 )
-from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.numerics.arrays import Mask, Points, Reals, distinct
 from gearlink.core.parts.linkages.checks import transmission_judged
 from gearlink.core.parts.linkages.codes import CLOSURE, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
 from gearlink.core.studies.clearance import Gear, Shaft, collision_judged, gaps, seats, shaft_judged
@@ -315,7 +315,7 @@ class PlanarSamples:
         course, joints = self.nominal.course, self._joints
         highest = max(max(each.orders) for each in wanted.values()) + 1
         beside = np.array([joint.place for joint in joints])[:, None] + _BESIDE * np.array([-1.0, 1.0])
-        q = np.unique(np.concatenate([course.grid, beside[(beside > course.start) & (beside < course.end)]]))
+        q = distinct(np.concatenate([course.grid, beside[(beside > course.start) & (beside < course.end)]]))
         jets = course.jets(q, 0)
         walked = course.walked(q)
         after, before = (self.system.onward(Jets(jets.x, jets.t, side=side), walked, highest) for side in (1, -1))

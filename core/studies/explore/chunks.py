@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, as_arrays, put_in
-from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.arrays import Mask, Reals, distinct
 from gearlink.core.studies.explore.base import singles
 from gearlink.core.studies.explore.pareto import best_boxes, counted, front
 from gearlink.core.studies.explore.preparing import problem_of
@@ -165,7 +165,7 @@ def kept(problem: Problem, index: Any, found: Evaluated) -> Chunk:
     multiples = counted(what.objectives[places], _resolution(problem))
     best = front(multiples)
     if len(problem.objectives) == 1:
-        best = np.union1d(best, best_boxes(multiples, RANKED))
+        best = distinct(np.concatenate((best, best_boxes(multiples, RANKED))))
     rows = np.column_stack([index[places[best]].astype(float), what.columns[:, places[best]].T])
     return Chunk(len(index), len(places), misses, rows)
 
@@ -283,7 +283,7 @@ def fold(problem: Problem, parts: Sequence[Reals]) -> Reals:
     multiples = multiples_of(problem, rows)
     best = front(multiples)
     if len(problem.objectives) == 1:
-        best = np.union1d(best, best_boxes(multiples, RANKED))
+        best = distinct(np.concatenate((best, best_boxes(multiples, RANKED))))
     return rows[best]
 
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.errors import GearlinkError
-from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.arrays import Mask, Reals, distinct
 from gearlink.core.numerics.quasi_random import Sobol
 
 _EDGE = 1e-9
@@ -171,7 +171,7 @@ class Grid:
         if counts.sum() > _MOST_CELLS:
             raise TooManyDesigns(float(counts.sum()))
         found = [variable.at(np.arange(int(n)), p) for p, n in zip(parents, counts, strict=True)]
-        return np.unique(np.concatenate(found)) if found else np.empty(0)
+        return distinct(np.concatenate(found)) if found else np.empty(0)
 
     def _numbers(self, i: int) -> Reals:
         """The numbers of a domain, where the variable has a list of values too."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.arrays import Mask, Reals, distinct
 
 Indices = NDArray[np.intp]
 PARTS = 1e6
@@ -142,7 +142,7 @@ def best_boxes(multiples: Reals, most: int) -> Indices:
         places : (M,) array - ascending, at most `most`
     """
     corner = np.floor(multiples / PARTS)
-    limit = np.unique(corner)[:most]
+    limit = distinct(corner)[:most]
     return _nearest(multiples, corner, np.flatnonzero(corner[:, 0] <= limit[-1])) if limit.size else _none()
 
 
