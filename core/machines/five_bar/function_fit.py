@@ -22,10 +22,9 @@ _NODES, _GRID = 9, 121
 _STARTS, _ROUNDS, _STEPS = 300, 1, 60
 # Steps of levelling: the best so many of a round by so many steps, the best of these by more.
 _RACE = ((5, 15), (2, 25), (1, 80))
-# Of t20, phi0 and psi0 those that turn the input link, the coupler and the output link.
-_TURNED_BY = ((5,), (4, 5), (6,))
 _SCATTER = 1.6
 _WEIGHT = 3.0
+_FARTHEST = 6.0
 _MARGIN = math.radians(0.01)  # of the transmission angle against rounding
 
 
@@ -192,8 +191,12 @@ def _direction(x: Reals, which: int, phi: Reals, psi: Reals, ratio: float) -> Po
     return np.asarray(np.exp(1j * (x[:, 4:5] + ratio * turned) if which else 1j * turned))
 
 
+def _lengths(x: Reals) -> tuple[Reals, ...]:
+    return tuple(np.exp(np.clip(x[:, i], -_FARTHEST, _FARTHEST))[:, None] for i in range(4))
+
+
 def _of_directions(x: Reals, directions: Sequence[Points], cosine: float) -> Reals:
-    b, c, e, d = (np.exp(np.clip(x[:, i], -6.0, 6.0))[:, None] for i in range(4))
+    b, c, e, d = _lengths(x)
     joint = directions[0] + b * directions[1]
     gap = joint - d - e * directions[2]
     mu = (c * c + e * e - np.abs(d - joint) ** 2) / (2.0 * c * e)
@@ -201,17 +204,28 @@ def _of_directions(x: Reals, directions: Sequence[Points], cosine: float) -> Rea
 
 
 def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
-    """Derivatives by the unknowns, by differences: the rows are levelled afterwards, where digits count."""
-    step = 1e-7
-    columns, there = [], [_direction(x, which, phi, psi, ratio) for which in range(3)]
-    for i in range(7):
-        moved = x.copy()
-        moved[:, i] += step
-        turned = [
-            _direction(moved, which, phi, psi, ratio) if i in _TURNED_BY[which] else there[which] for which in range(3)
-        ]
-        columns.append((_of_directions(moved, turned, cosine) - value) / step)
-    return np.stack(columns, axis=2)
+    """Derivatives by the unknowns, in closed form; none by a length that is kept within its bounds.
+
+    g = e^(i phi) + b e^(i t2) - d - e e^(i psi):   d|g| = Re(g* dg)/|g|,   d cos mu = Re(w* dw)/(c e), w = d - B
+    """
+    b, c, e, d = _lengths(x)
+    crank, planet, hand = (_direction(x, which, phi, psi, ratio) for which in range(3))
+    planet, hand = b * planet, e * hand
+    far = d - crank - planet
+    gap = -far - hand
+    mu = (c * c + e * e - np.abs(far) ** 2) / (2.0 * c * e)
+    toward, across = np.conj(gap / np.maximum(np.abs(gap), 1e-300)) / e, np.conj(far) / (c * e)
+    found = np.zeros((*value.shape, 7))
+    near, turned = found[:, : phi.shape[-1]], found[:, phi.shape[-1] :]
+    swept = 1j * (crank + ratio * planet)
+    for column, moved in ((0, planet), (3, -d), (4, 1j * planet), (5, swept)):
+        near[..., column], turned[..., column] = (moved * toward).real, (moved * across).real
+    near[..., 1], near[..., 2] = -c / e, -(hand * toward).real - value[:, : phi.shape[-1]]
+    near[..., 6] = (hand * toward).imag
+    turned[..., 1], turned[..., 2] = c / e - mu, e / c - mu
+    turned *= (_WEIGHT * np.sign(mu) * (np.abs(mu) > cosine))[..., None]
+    found[..., :4] *= (np.abs(x[:, :4]) < _FARTHEST)[:, None, :]
+    return found
 
 
 _LEVELLING_GRID = 121

@@ -152,6 +152,20 @@ def test_slopes_of_levelling_are_those_of_differences() -> None:
 
 
 @pytest.mark.slow
+def test_slopes_of_the_squares_are_those_of_differences() -> None:
+    """Central differences of 1e-6: rounding 1e-16/1e-6 of the misses, up to some hundreds; one length out of bounds."""
+    rng = np.random.default_rng(3)
+    x, phi, psi = rng.normal(size=(40, 7)), np.linspace(0.1, 1.0, 9), np.linspace(0.0, 1.3, 9)
+    x[0, 1] = 7.0
+    given = phi, psi, 1.7, 0.6
+    misses = function_fit._misses(x, *given)
+    found = function_fit._slopes(x, misses, *given)
+    for i in range(7):
+        step = 1e-6 * np.eye(7)[i]
+        slope = (function_fit._misses(x + step, *given) - function_fit._misses(x - step, *given)) / 2e-6
+        assert found[..., i] == pytest.approx(slope, rel=1e-8, abs=1e-8 * float(np.abs(misses).max()))
+
+
 def test_corrected_steps_follow_a_curved_valley(monkeypatch: pytest.MonkeyPatch) -> None:
     """Slopes alone say that extremes stay level which the bend of the errors raises; steps then shrink to nothing."""
     found = []
