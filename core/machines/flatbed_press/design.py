@@ -1089,6 +1089,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     derived = DERIVED
     extreme_names = _EXTREMES
     at_once = 64
+    alone = frozenset(("transmission-angle", "register", "body-clearance"))
     motion_extremes: dict[str, float] = placed("motion.extremes")
     extra_tables = (
         "chains",

@@ -53,6 +53,29 @@ def test_presses_of_a_study_are_those_of_each_alone(cam: str, part: str) -> None
         assert shown[0] == shown[1]
 
 
+def test_no_press_of_a_study_is_computed_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The register's value, 0, is next to its limit, 1e-9; no cam that was found among others moves it."""
+    base = _base("as printed", "press")
+    made, make = [0], Base.design
+
+    def counted(self: Base, changes: Any = ()) -> Any:
+        made[0] += 1
+        return make(self, changes)
+
+    monkeypatch.setattr(Base, "design", counted)
+    rows = _rows(base, VARIED["bed"])
+    found = singles(base, rows, ["min_transmission_angle_bed"], list(base.codes))
+    assert made[0] == len(found) == len(rows)
+    assert any(check.name == "register" and check.value == 0.0 for each in found for check in each.findings)
+
+
+@pytest.mark.parametrize("name", sorted(FlatbedPress.alone))
+def test_checks_that_judge_no_cam_need_none(name: str) -> None:
+    with_cams, without = (factory.design("ty460", command="press") for _ in range(2))
+    vars(without)["cams"] = None  # asked of anything, it raises
+    assert without.check(name) == with_cams.check(name)
+
+
 def test_all_cams_are_found_together() -> None:
     base = _base("as printed", "analyze")
     designs: list[Any] = [base.design(row) for row in _rows(base, VARIED["bed"])]
