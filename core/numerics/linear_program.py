@@ -17,37 +17,49 @@ class Solution(NamedTuple):
     Fields
         x : (N,) array
         duals : (M,) array - of the rows; of a row at its upper limit none is positive
+        basis : where the solver ended
     """
 
     x: Reals
     duals: Reals
+    basis: Any
 
 
-def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -> Reals | None:
+def least(
+    cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals, near: Solution | None = None
+) -> Solution | None:
     """The x of minimum cost @ x with rows @ x <= limits and lower <= x <= upper, by the dual simplex method.
 
     Parameters
         cost, lower, upper : (N,) arrays - bounds may be infinite
         rows : (M, N) array - finite
         limits : (M,) array
+        near : Solution - of a like program; where it has as many rows, the solver begins at its basis
     Returns
-        x : (N,) array - to 1e-7 in each limit, so state the program in numbers about 1; None where no x keeps the
+        found : Solution - to 1e-7 in each limit, so state the program in numbers about 1; None where no x keeps the
             limits, or the cost falls without end
 
     Source
         Q. Huangfu, J. A. J. Hall, Mathematical Programming Computation 10 (2018) 119
     """
-    found = solution(cost, rows, np.full(limits.size, -np.inf), limits, lower, upper)
-    return None if found is None else found.x
+    return solution(cost, rows, np.full(limits.size, -np.inf), limits, lower, upper, near=near)
 
 
 def solution(
-    cost: Reals, rows: Reals, least_: Reals, most: Reals, lower: Reals, upper: Reals, *, tolerance: float = 1e-7
+    cost: Reals,
+    rows: Reals,
+    least_: Reals,
+    most: Reals,
+    lower: Reals,
+    upper: Reals,
+    *,
+    tolerance: float = 1e-7,
+    near: Solution | None = None,
 ) -> Solution | None:
     """The x of minimum cost @ x with least_ <= rows @ x <= most and lower <= x <= upper, and the duals of the rows.
 
     Parameters
-        as of `minimum`; tolerance : float - of limits and reduced costs
+        as of `least`; tolerance : float - of limits and reduced costs
     """
     from highspy import HighsModelStatus, HighsStatus, MatrixFormat, ObjSense
 
@@ -59,13 +71,15 @@ def solution(
     solver.setOptionValue("primal_feasibility_tolerance", tolerance)
     solver.setOptionValue("dual_feasibility_tolerance", tolerance)
     solver.passModel(*sizes, form, ObjSense.kMinimize.value, 0.0, cost, *limits, *matrix, real)
+    if near is not None and near.duals.size == most.size:
+        solver.setBasis(near.basis)
     if solver.run() == HighsStatus.kError:  # of its threads there is one number in a process: who came first set it
         solver.setOptionValue("threads", 0)
         solver.run()
     if solver.getModelStatus() != HighsModelStatus.kOptimal:
         return None
     found = solver.getSolution()
-    return Solution(np.array(found.col_value), np.array(found.row_dual))
+    return Solution(np.array(found.col_value), np.array(found.row_dual), solver.getBasis())
 
 
 def proved_bound(

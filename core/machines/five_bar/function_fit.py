@@ -13,7 +13,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, StructuralError, outputs, structural_error
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.numerics.linear_program import least
+from gearlink.core.numerics.linear_program import Solution, least
 from gearlink.core.numerics.lm import State, damped_normal, descend, normal
 from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.linkages.functions import Wanted
@@ -273,6 +273,7 @@ class Levelling:
         self.worst = self._worst(self._miss, self._cosine)
         self._slopes = slopes(bar, start, self._swing)
         self._trust, self._ended = 0.05, False
+        self._near: Solution | None = None
 
     @property
     def bar(self) -> FunctionFiveBar:
@@ -354,8 +355,12 @@ class Levelling:
             np.concatenate(edges),
             np.array([*down, -trust, -trust, -np.inf, 0.0]),
             np.array([*up, trust, trust, np.inf, np.inf]),
+            self._near,
         )
-        return None if found is None else found[:6]
+        if found is None:
+            return None
+        self._near = found
+        return found.x[:6]
 
 
 def state(bar: FunctionFiveBar, start: float, swing: Reals, target: Reals) -> tuple[Reals, Reals]:

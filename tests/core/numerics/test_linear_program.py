@@ -24,9 +24,14 @@ def test_a_least_is_that_of_the_interior_point_method(seed: int) -> None:
         assert found is None
         return
     assert found is not None
-    assert cost @ found == pytest.approx(other.fun, abs=1e-7)
-    assert np.all(rows @ found <= limits + 1e-7)
-    assert np.all((found >= lower - 1e-7) & (found <= upper + 1e-7))
+    again = least(cost, rows, limits, lower, upper, found)
+    moved = least(cost, rows, limits + 0.1 * rng.random(60), lower, upper)
+    nearby = least(cost, rows, limits, lower, upper, moved)  # from the basis of a like program
+    for each in (found, again, nearby):
+        assert each is not None
+        assert cost @ each.x == pytest.approx(other.fun, abs=1e-7)
+        assert np.all(rows @ each.x <= limits + 1e-7)
+        assert np.all((each.x >= lower - 1e-7) & (each.x <= upper + 1e-7))
 
 
 def test_of_two_sides_the_nearer_holds() -> None:
@@ -34,7 +39,10 @@ def test_of_two_sides_the_nearer_holds() -> None:
         np.array([-1.0, 1.0]), np.array([[1.0, 1.0], [1.0, 0.0]]), np.array([4.0, 3.0]), np.zeros(2), np.full(2, np.inf)
     )
     assert found is not None
-    assert found.tolist() == [3.0, 0.0]
+    assert found.x.tolist() == [3.0, 0.0]
+    fewer = least(np.array([-1.0, 1.0]), np.ones((1, 2)), np.array([4.0]), np.zeros(2), np.full(2, np.inf), found)
+    assert fewer is not None
+    assert fewer.x.tolist() == [4.0, 0.0]
 
 
 @pytest.mark.parametrize(("limits", "lower"), [([-1.0, 0.5], 0.0), ([1.0, 1.0], -np.inf)])
@@ -49,7 +57,7 @@ def test_another_user_of_the_solver_may_have_set_its_threads() -> None:
         "from gearlink.core.numerics.linear_program import least\n"
         "other = highspy.Highs(); other.setOptionValue('output_flag', False)\n"
         "other.setOptionValue('threads', 3); other.addVar(0, 1); other.run()\n"
-        "print(least(np.ones(1), np.ones((1, 1)), np.ones(1), np.full(1, 0.25), np.ones(1)))\n"
+        "print(least(np.ones(1), np.ones((1, 1)), np.ones(1), np.full(1, 0.25), np.ones(1)).x)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.endswith("[0.25]\n")  # the other solver may have named itself
