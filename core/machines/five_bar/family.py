@@ -180,8 +180,8 @@ class FiveBarFamily:
             start, output = self._pins(x, self._turned(phi))
             back, speed = np.conj(self.frame + output - start), 1j * (self.ratio * output - start)
             bend = _square(speed) + (back * (start - self.ratio**2 * output)).real
-            step = np.nan_to_num(-(back * speed).real / bend, posinf=0.0, neginf=0.0)
-            phi = phi + np.clip(step, -reach, reach)
+            step = -(back * speed).real / bend
+            phi = phi + np.clip(np.where(np.isfinite(step), step, 0.0), -reach, reach)
         return *self._pins(x, self._turned(phi)), np.concatenate((some, others), axis=1)
 
     def _way(self, x: Reals, turns: tuple[Points, Points]) -> Points:
@@ -206,7 +206,8 @@ def _offset(x: Reals) -> Points:
 
 def _humps(value: Reals, most: int) -> tuple[Places, Mask]:
     """The maximum local maxima along a last axis that closes upon itself, and which of those given are such."""
-    top = (value >= np.roll(value, 1, axis=-1)) & (value > np.roll(value, -1, axis=-1))
+    closed = np.concatenate((value[..., -1:], value, value[..., :1]), axis=-1)
+    top = (value >= closed[..., :-2]) & (value > closed[..., 2:])
     score = np.where(top, value, -np.inf)
     found = np.argpartition(-score, most - 1, axis=-1)[..., :most]
     return found, np.isfinite(np.take_along_axis(score, found, axis=-1))
