@@ -138,13 +138,15 @@ def _wrong_study() -> type[WrongStudy]:
 
 
 def refused_sections(
-    loaded: LoadedFile, kind: Kind, spec: Any, done: Collection[str] = ()
+    loaded: LoadedFile, kind: Kind, spec: Any, done: Collection[str] = (), designs: FileDesigns | None = None
 ) -> Iterator[tuple[str, list[Diagnostic]]]:
     """What the sections `tolerance` and `register` name and the design does not have, by the command that reads them.
 
     Parameters
         done : commands that have said so themselves
+        designs : those of the file that are made already, whose results are shared
     """
+    designs = FileDesigns(kind, spec) if designs is None else designs
     sections = {"tolerance": ("tolerance",), "register": ("tolerance", "register_")}
     for command, keys in sections.items():
         given = any(getattr(spec, key, None) is not None for key in keys)
@@ -152,7 +154,7 @@ def refused_sections(
             continue
         try:
             with refusals_located(loaded):
-                kind.design(command, spec).require_named()
+                designs.of(command).require_named()
         except DesignFileError as error:
             yield command, error.diagnostics
             return  # the other reads the same sources

@@ -252,7 +252,7 @@ class _Computing:
                 yield self._ended(ExitCode.WRONG_INPUT, errors=[Diagnostic("GL116", str(error), file=self._file)])
             self._start = perf_counter()
         if not refused:
-            for self._command, wrong in refused_sections(loaded, kind, spec, added):
+            for self._command, wrong in refused_sections(loaded, kind, spec, added, designs):
                 yield self._ended(ExitCode.WRONG_INPUT, errors=wrong)
 
     def _result(self, loaded: LoadedFile, kind: Kind, spec: Any, designs: FileDesigns, kept: list[Design]) -> Outcome:

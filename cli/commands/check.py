@@ -151,7 +151,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
             refused = True
             yield from (Finding("error", diagnostic, command) for diagnostic in error.diagnostics)
     if not refused:
-        for command, wrong in refused_sections(loaded, kind, spec):
+        for command, wrong in refused_sections(loaded, kind, spec, designs=designs):
             yield from (Finding("error", diagnostic, command) for diagnostic in wrong)
 
 
