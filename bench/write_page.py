@@ -74,7 +74,7 @@ _REASONS = """## Where a goal is missed, and why
   five-bar, a press with joint forces, a study of gripper cams). A folder of complete designs takes milliseconds each.
   A process of `check` takes the files of one kind together, since it builds the models of a kind once. Of `check` a
   third are imports and models of 25 kinds, a third the forces of six machines, a fifth four five-bars (170 linear
-  programs of 0.6 ms, descents from 300 and 1500 starts). A round of a search under loads makes some hundred numpy calls
+  programs of 0.3 ms, descents from 300 and 1500 starts). A round of a search under loads makes some hundred numpy calls
   and takes 1.5 to 4 ms, for two places as for two hundred; an extreme at a jump takes ten rounds and more.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms (libyaml and pydantic-core are compiled). Results
   and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) or 1.6 ms (synthesis with meshes, dwell and extremes): some
