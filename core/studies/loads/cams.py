@@ -392,16 +392,34 @@ class CamLoadsDesign(LoadsDesign):
         fix = f"set loads.roller.preload to {safely_above(needed)}"
         yield PRELOAD.check(status, "preload that holds both rollers on their cams", given, needed, "N", fix=fix)
 
+    @property
+    def _may_strike(self) -> bool:
+        """Whether a follower goes from one side to the other."""
+        roller = self.section.roller
+        return self.on_two_sides and (roller is None or not roller.preload)
+
+    def changing(self, names: tuple[str, ...]) -> dict[str, tuple[Callable[[Reals], Reals], float]]:
+        """The side of a follower as well."""
+        strikes = "load-reversal" in names and self._may_strike
+        return super().changing(names) | ({"side_changes": (self.side_force, self._side_size)} if strikes else {})
+
+    @property
+    def _side_size(self) -> float:
+        return max(abs(high.value) for _, high in self.force_extremes)
+
+    @cached_property
+    def side_changes(self) -> list[float]:
+        """Input angles at which a follower between two cams changes sides [rad]."""
+        from gearlink.core.studies.loads.joints import places
+
+        return places(self.side_force, self.machine, self._side_size)
+
     def check_load_reversal(self) -> Iterator[Check]:
         """GL602: each mesh, and a follower between two cams that no preload holds to both."""
         yield from load_reversal(self)
-        roller = self.section.roller
-        if not self.on_two_sides or (roller is not None and roller.preload):
+        if not self._may_strike:
             return
-        from gearlink.core.studies.loads.joints import places
-
-        size = max(abs(high.value) for _, high in self.force_extremes)
-        found = [math.degrees(place) for place in places(self.side_force, self.machine, size)]
+        found = [math.degrees(place) for place in self.side_changes]
         if found:
             yield LOAD_REVERSAL.check(
                 "warn",

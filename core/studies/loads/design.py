@@ -407,11 +407,14 @@ class LoadsDesign(Design):
         held = [joint[4:] for joint, _, name in asked if name in ("equivalent", "travel", "life")]
         pins = [pin for pin in map(self.pin, held) if pin]
         meshes = [self.mesh(joint) for joint, _, name in asked if name == "reversals"]
-        size = self.torque_size if "torque_reversals" in names else None
-        turned = find_reversals(self.machine, pins, [mesh for mesh in meshes if mesh], size)
-        if turned is not None:
-            keep(self, torque_reversals=len(turned))
+        changing = self.changing(names)
+        found = find_reversals(self.machine, pins, [mesh for mesh in meshes if mesh], tuple(changing.values()))
+        keep(self, **dict(zip(changing, found, strict=True)))
         find_ways(self.machine, pins, pressed=any(name in ("equivalent", "life") for _, _, name in asked))
+
+    def changing(self, names: tuple[str, ...]) -> dict[str, tuple[Callable[[Reals], Reals], float]]:
+        """Functions whose changes of sign some quantities and checks ask for, with their sizes, by the kept result."""
+        return {"torque_changes": (self.machine.torque, self.torque_size)} if "torque_reversals" in names else {}
 
     @cached_property
     def torque_range(self) -> tuple[Extreme, Extreme]:
@@ -464,11 +467,16 @@ class LoadsDesign(Design):
         return max(self.input_torque_max * self.machine.speed, self.input_torque_min * self.machine.speed)
 
     @cached_property
-    def torque_reversals(self) -> int:
-        """Changes of sign of the input torque over the period."""
+    def torque_changes(self) -> list[float]:
+        """Input angles at which the input torque changes its sign [rad]."""
         from gearlink.core.studies.loads.joints import places
 
-        return len(places(self.machine.torque, self.machine, self.torque_size))
+        return places(self.machine.torque, self.machine, self.torque_size)
+
+    @property
+    def torque_reversals(self) -> int:
+        """Changes of sign of the input torque over the period."""
+        return len(self.torque_changes)
 
     reflected_inertia_max: float = at_extreme("inertia")
     reflected_inertia_min: float = at_extreme("inertia", False)

@@ -53,7 +53,14 @@ def places_of(functions: Sequence[tuple[Function, float]], machine: Machine) -> 
             first, last = f(np.array([_STEP, machine.period - _STEP]))
             if first * last < 0.0 and min(abs(first), abs(last)) > NOISE * size:
                 crossings.insert(0, 0.0)
-        found[k] = _changes(f, crossings, size, machine)
+    # all look at both sides of the crossings of all: what they share is computed once
+    sides = np.array([place + step for crossings in every for place in crossings for step in (-_STEP, _STEP)])
+    sides, first_side = sides if machine.stroke else np.mod(sides, machine.period), 0
+    for k, crossings in zip(loaded, every, strict=True):
+        own = slice(first_side, first_side := first_side + 2 * len(crossings))
+        if crossings:
+            f, size = functions[k]
+            found[k] = _changes(f, crossings, size, machine, _without_noise(f, size, sides)[own])
     return found
 
 
@@ -62,12 +69,12 @@ def _without_noise(f: Function, size: float, phi: Reals) -> Reals:
     return np.where(np.abs(values) <= NOISE * size, 0.0, values)
 
 
-def _changes(f: Function, zeros: list[float], size: float, machine: Machine) -> list[float]:
-    """The places with opposite signs on both sides; in between f may be 0 over a way, as in the dwell of a cam."""
-    if not zeros:
-        return []
-    sides = np.array([place + step for place in zeros for step in (-_STEP, _STEP)])
-    values = _without_noise(f, size, sides if machine.stroke else np.mod(sides, machine.period))
+def _changes(f: Function, zeros: list[float], size: float, machine: Machine, values: Reals) -> list[float]:
+    """The places with opposite signs on both sides; in between f may be 0 over a way, as in the dwell of a cam.
+
+    Parameters
+        values : (2 N,) array - before and behind each of the zeros
+    """
     before, after = values[::2], values[1::2]
     if not np.all(before * after):
         signs = _signs_between(f, zeros, size, machine)
@@ -286,25 +293,26 @@ class MeshLoad:
 
 
 def find_reversals(
-    machine: Machine, pins: Sequence[PinLoad], meshes: Sequence[MeshLoad], torque_size: float | None = None
-) -> list[float] | None:
+    machine: Machine,
+    pins: Sequence[PinLoad],
+    meshes: Sequence[MeshLoad],
+    others: Sequence[tuple[Function, float]] = (),
+) -> list[list[float]]:
     """Search the reversals of pins together, and the changes of flanks of meshes, and keep them there.
 
     Parameters
-        torque_size : float [N m] - maximum input torque, where its changes of sign are wanted as well
+        others : functions with their sizes, as of `places_of`, whose changes of sign are wanted as well
     Returns
-        places : input angles of those [rad]; with friction the torque comes with the forces of the meshes
+        places : input angles of those of each of them [rad]; a torque with friction comes with the forces of the meshes
     """
     turning = [pin for pin in dict.fromkeys(pins) if pin.known and not kept(pin, "reversals")]
     for pin, found in zip(turning, zeros_of([pin.rate for pin in turning], machine.period, machine.turns), strict=True):
         keep(pin, reversals=found)
     rolling = [mesh for mesh in dict.fromkeys(meshes) if not kept(mesh, "reversal_places")]
-    functions: list[tuple[Function, float]] = [(mesh.force, mesh.tooth_force_max) for mesh in rolling]
-    functions += [] if torque_size is None else [(machine.torque, torque_size)]
-    places = places_of(functions, machine)
+    places = places_of([*((mesh.force, mesh.tooth_force_max) for mesh in rolling), *others], machine)
     for mesh, found in zip(rolling, places, strict=False):
         keep(mesh, reversal_places=found)
-    return None if torque_size is None else places[-1]
+    return places[len(rolling) :]
 
 
 def find_ways(machine: Machine, pins: Sequence[PinLoad], *, pressed: bool = True) -> None:
