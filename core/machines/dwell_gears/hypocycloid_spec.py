@@ -26,7 +26,7 @@ class HypocycloidGears(TrainKeys):
         return False, True
 
     @model_validator(mode="after")
-    def _planet_goes_into_ring(self) -> HypocycloidGears:
+    def _planet_goes_into_ring(self) -> Self:
         if self.ring <= self.planet:
             message = f"a ring gear of {self.ring} teeth does not take a planet of {self.planet}"
             raise refused(f"{message}\nset gears.ring to {3 * self.planet}", "ring")
