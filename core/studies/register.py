@@ -428,8 +428,18 @@ class RegisterDesign(Design):
                 errors = self.sampled_errors(chosen, sign, parts)
                 if chosen.size > 1:
                     errors = errors - errors[0]
+                self._require_closed(errors, sign)
             bands.append([_band(one) for one in errors + _scattered(beside, points[:, width:])])
         return np.array(bands)
+
+    def _require_closed(self, errors: Reals, sign: int) -> None:
+        """Refuse a band outside of which no samples could lie but those that do not close."""
+        share = float(np.isnan(errors).mean(axis=1).max())
+        if share > 1.0 - _KEPT:
+            first = max(self.budgets[SIGNS.index(sign)].rows, key=lambda row: row.limit * abs(row.gain)).source
+            limit = short(100.0 * (1.0 - _KEPT))
+            message = f"samples too far off nominal to be closed: {short(100.0 * share)} % (limit <= {limit} %)"
+            raise NoSolution(message, key="tolerance.sources", fix=f"tighten {first}, which moves the output most")
 
     # Tables
 
@@ -551,6 +561,7 @@ def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
 
 SIGNS = (1, -1)
 _SAMPLES = 16_384
+_KEPT = 0.9973
 _PLACES = 13
 
 
@@ -575,7 +586,7 @@ def _scattered(own: Sequence[Contribution], points: Reals) -> Any:
 
 def _band(errors: Reals) -> float:
     ordered = np.sort(np.abs(errors))
-    return float(ordered[min(ordered.size - 1, math.ceil(0.9973 * ordered.size) - 1)])
+    return float(ordered[min(ordered.size - 1, math.ceil(_KEPT * ordered.size) - 1)])
 
 
 def budget_check(

@@ -10,6 +10,7 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.studies.tolerance.budget import Contribution, budget, normal_band
 from gearlink.core.studies.tolerance.sampling import COMPUTED_BY
 
@@ -98,6 +99,19 @@ def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
     assert json.loads(text) == json.loads(made.spec.model_dump_json(exclude_unset=True, by_alias=True))
     here = np.mean([made.sampled_share(number) for number in range(2)], axis=0)
     assert found == [float(one.max()) for one in here]
+
+
+@pytest.mark.parametrize("place", [{}, {"at": "100"}])
+def test_samples_that_do_not_close_are_refused(place: dict[str, str]) -> None:
+    """They had a band of NaN. 3.4 % of these rods are shorter than crank and offset together."""
+    data = {"kind": "slider-crank", "name": "s", "crank": 154.2116, "rod": 520.0, "offset": 50.0}
+    tolerance = {"sources": {"rod": {"plus_minus": 520.0}, "crank": {"plus_minus": 0.02}}, "samples": 1024}
+    made = factory.design(data | {"tolerance": tolerance, "register": {"method": "mc"} | place}, command="register")
+    with pytest.raises(
+        NoSolution, match=r"samples too far off nominal to be closed: .* % \(limit <= 0.27 %\)"
+    ) as found:
+        _ = made.band
+    assert (found.value.key, found.value.fix) == ("tolerance.sources", "tighten rod, which moves the output most")
 
 
 def test_a_measured_part_is_an_error_without_scatter() -> None:
