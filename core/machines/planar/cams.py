@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.errors import NoSolution, at_key, in_section
 from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.wiring import FRAME
@@ -295,7 +295,7 @@ class CamJoint:
         Raises
             NoSolution - where its velocity jumps
         """
-        with at_key(f"{self.key}.motion"):
+        with in_section(self.key), at_key("motion"):
             found = motion_of(self.given.motion, unit=1.0 if self.slide else _DEGREE)
         phi = np.linspace(0.0, 2.0 * math.pi, SAMPLES)
         fastest = float(np.abs(found.evaluate(phi, 1)[1]).max())

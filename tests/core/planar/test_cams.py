@@ -208,6 +208,7 @@ def test_a_law_run_through_backwards_has_the_side_of_the_input() -> None:
     [
         ({"roller_radius": 60}, "cams.main.roller_radius"),
         ({"motion": [{"to": 90, "lift": 9, "law": "constant-velocity"}, {"to": 360, "lift": 0}]}, "cams.main.motion"),
+        ({"motion": [{"to": 90, "lift": 9, "mirrored": True}, {"to": 360, "lift": 0}]}, "cams.main.motion[0].law"),
     ],
 )
 def test_cams_that_cannot_be(change: dict[str, Any], key: str) -> None:
