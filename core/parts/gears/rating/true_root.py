@@ -142,7 +142,7 @@ class RootContour:
             return None
         ring = pair.shaped.virtual
         teeth = -float(ring.teeth)
-        height = abs(pair.tip_radius[1] - pair.reference_radius[1]) / pair.module
+        height = (pair.tip_radius[1] - pair.reference_radius[1]) / pair.module
         half = (math.pi / 2.0 + 2.0 * ring.shift * math.tan(pair.pressure_angle)) / teeth
         return cls(
             teeth=teeth,

@@ -180,6 +180,15 @@ def test_a_ring_without_its_cutter_has_no_generated_root() -> None:
     assert second is None
 
 
+@pytest.mark.parametrize("tip", [1906.081, 1960.0])
+def test_the_contour_of_a_ring_ends_at_its_tips(tip: float) -> None:
+    """Also where they lie outside of the reference circle of 1953 mm: they were as far within it."""
+    data = made(**RINGS["93"] | {"tip_diameter": [815.663, tip]}).data
+    contour = RootContour.of(data.pair, 1, data.cut_shift[1], None)
+    assert contour is not None
+    assert 2.0 * 21.0 * contour.tip == pytest.approx(tip, rel=1e-14)
+
+
 def test_a_pointed_tooth_has_none() -> None:
     pair = made(teeth=[12, 71], profile_shift=[0.9, 0.0], tip_shortening="none").data.pair
     assert RootContour.of(pair, 0, pair.profile_shift[0], None) is None
