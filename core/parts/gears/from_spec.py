@@ -66,13 +66,19 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     return _without_difference(pair)
 
 
-def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = None) -> GearPair:
+def pair_at(
+    given: PairKeys,
+    teeth: tuple[int, int],
+    distance: float | None = None,
+    teeth_keys: tuple[str, str] = GearPair.teeth_keys,
+) -> GearPair:
     """The pair of a section, at the centre distance of its machine or that of its shifts.
 
     Parameters
         given : PairKeys, with module and pressure_angle
         teeth : (int, int)
         distance : float [mm] - None: without backlash by the shifts
+        teeth_keys : keys of the section that hold the teeth
     Raises
         NoSolution - where the teeth cannot mesh
     """
@@ -90,6 +96,7 @@ def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = No
         tools=tools,
         given_shift=shift,
         given_distance=distance,
+        teeth_keys=teeth_keys,
     )
     return pair if shift is None or distance is None else _without_difference(pair)
 

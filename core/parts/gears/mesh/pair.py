@@ -62,16 +62,16 @@ def _require_teeth(pair: GearPair) -> None:
         if isinstance(z, bool) or not isinstance(z, int) or z == 0:
             raise NoSolution(f"teeth {z!r}: a gear has a whole number of teeth, at least 1")
     if first < 0:
-        raise NoSolution(f"teeth {first!r}: gear 1 is external", key="teeth[0]", fix="name the ring as gear 2")
+        raise NoSolution(f"teeth {first!r}: gear 1 is external", key=pair.teeth_keys[0], fix="name the ring as gear 2")
     if second < 0 and -second <= first:
         raise NoSolution(
-            f"a ring of {-second} teeth does not take a gear of {first}: it needs more teeth", key="teeth[1]"
+            f"a ring of {-second} teeth does not take a gear of {first}: it needs more teeth", key=pair.teeth_keys[1]
         )
     own_ring = second < 0 and pair.given_shift != (0.0, 0.0)
     unusual = own_ring or pair.helix_angle != 0.0 or any(pair.tools)
     if unusual and min(first, abs(second)) < 3:
         place = 0 if first < 3 else 1
-        raise NoSolution(f"a gear of {pair.teeth[place]} teeth: it needs at least 3", key=f"teeth[{place}]")
+        raise NoSolution(f"a gear of {pair.teeth[place]} teeth: it needs at least 3", key=pair.teeth_keys[place])
 
 
 def least_distance(pair: PitchPair) -> float:
@@ -146,7 +146,7 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
         f"tip radius of the ring: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base radius: no "
         "involute "
         "is left)",
-        key="teeth[1]",
+        key=pair.teeth_keys[1],
         fix=fix if teeth is None else f"give it at least {teeth} teeth",
     )
 
@@ -195,6 +195,7 @@ class GearPair(PitchPair):
         tools : (RackTool or None, ...) - tool of each gear; None: addendum and clearance of the profile
         given_spans : (int or None, ...) - teeth that a span measurement goes over; None: chosen
         cutter : PinionCutter or None - of a ring; None leaves its fillets unknown
+        teeth_keys : keys of the design file that hold the teeth
     Returns
         Properties: lengths in mm, angles in rad, coefficients in modules; a pair is (gear 1, gear 2). Radii of a
         ring and the centre distance of its pair are negative.
@@ -225,6 +226,7 @@ class GearPair(PitchPair):
     tools: tuple[RackTool | None, RackTool | None] = (None, None)
     given_spans: tuple[int | None, int | None] = (None, None)
     cutter: PinionCutter | None = None
+    teeth_keys: tuple[str, str] = ("teeth[0]", "teeth[1]")
 
     def __post_init__(self) -> None:
         require_profile(self)

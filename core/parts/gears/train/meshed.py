@@ -380,7 +380,9 @@ class Meshed(GearQuantities, Design):
 
     def _of_mesh(self, name: str, quantity: str) -> Any:
         if quantity in GEAR_QUANTITIES and self.own_teeth:
-            return gear_quantity(self.meshes[name], quantity)
+            mesh = self.meshes[name]
+            with in_section("gears"):
+                return gear_quantity(mesh, quantity)
         if quantity in _OF_PAIRS and not self.own_teeth:
             return mesh_quantity(self.meshes[name], quantity)
         if not self._has_involutes(name):
@@ -431,9 +433,9 @@ class Meshed(GearQuantities, Design):
 
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear tables of the meshes, one below the other."""
-
-        with at_key("gears"):
-            return drawings(self.mesh_data, self.spec.gears.helix_hand, self.teeth_train.places)
+        found = self.mesh_data
+        with in_section("gears"):
+            return drawings(found, self.spec.gears.helix_hand, self.teeth_train.places)
 
     def table_factors(self, _samples: int | None = None) -> Table:
         """The calculation sheets of the meshes, one below the other; a ring is gear 2 of its pair."""
@@ -474,7 +476,8 @@ class Meshed(GearQuantities, Design):
             data = self.mesh_data[mesh]
             with in_section("gears"):
                 return pair_check(name, data, limits, mesh=mesh, shifts=shifts)
-        return mesh_checks(name, pair, limits, mesh, shifts, self._roles(mesh))
+        with in_section("gears"):
+            return mesh_checks(name, pair, limits, mesh, shifts, self._roles(mesh))
 
     def _judged(self, name: str) -> bool:
         """Whether the file gives what a check of the drawing or of the strength needs."""

@@ -88,7 +88,9 @@ class Train:
 
     def _pair(self, place: Place, distance: float | None) -> GearPair:
         keys: TrainKeys = self.keys
-        pair = pair_at(keys.of(*place.gears, self.keys.module, self.keys.pressure_angle), place.teeth, distance)
+        one, other = (keys.gear_names()[gear] for gear in place.gears)
+        given = keys.of(*place.gears, self.keys.module, self.keys.pressure_angle)
+        pair = pair_at(given, place.teeth, distance, (one, other))
         changes: dict[str, Any] = {}
         if keys.span_teeth is not None:
             changes["given_spans"] = as_pair([self._span(place, i) for i in (0, 1)])

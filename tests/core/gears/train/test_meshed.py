@@ -460,6 +460,22 @@ def test_refusals_name_their_key(name, keys, key):
     assert refusal.value.key == key
 
 
+@pytest.mark.parametrize(
+    ("name", "key"), [("ring", "ring"), ("function in a ring", "ring"), ("path in a ring", "input")]
+)
+def test_a_ring_whose_tips_have_no_involute_is_refused_at_its_teeth(name, key):
+    """Quantities, findings and table named teeth[1], which no such file has."""
+    one = made(name, addendum=2.9)
+    for asked in (
+        lambda: one.report("gear"),
+        lambda: one.quantity("tip_fouling_margin"),
+        lambda: one.table("drawing"),
+    ):
+        with pytest.raises(NoSolution, match="tip radius of the ring") as refusal:
+            asked()
+        assert refusal.value.key == f"gears.{key}"
+
+
 def test_a_ring_whose_tips_have_no_involute_still_has_its_findings():
     gears = {"module": 2, "planet": 20, "ring": 25, "center_distance_allowance": "js7", "load": {"torque": 5.0}}
     spec = {"kind": "two-gear-four-bar", "gears": gears, "links": LINKS}
