@@ -13,7 +13,15 @@ import pytest
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.shifts import search
-from gearlink.core.parts.gears.shifts.search import PairTask, candidates, pairs_of_teeth, teeth_sums
+from gearlink.core.parts.gears.shifts.search import (
+    Carried,
+    PairTask,
+    candidates,
+    carrying,
+    least_width,
+    pairs_of_teeth,
+    teeth_sums,
+)
 
 
 @pytest.mark.parametrize(
@@ -76,6 +84,19 @@ def test_every_candidate_meets_the_task() -> None:
         assert -0.5 <= each.pair.shift_sum <= 1.0
         assert each.pair.center_distance == 120.0
     assert [each.margin < 0.0 for each in found] == sorted(each.margin < 0.0 for each in found)
+
+
+def test_pairs_that_carry_are_the_candidates_with_a_width(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of those that carry nothing no margin is computed, which takes most of the time."""
+    task, taken = PairTask(ratio=3.0, distance=120.0, modules=(1.0, 3.0, 5.0)), []
+    load = Carried(torque=200.0, speed=480.0, life=20000.0, materials=("16MnCr5", "16MnCr5"))
+    every = [(each, least_width(each.pair, load)) for each in candidates(task)]
+    sought = [(each, *width) for each, width in every if width is not None]
+    sought.sort(key=lambda one: (one[0].margin < 0.0, one[1], abs(one[0].ratio_error)))
+    margin = search._margin
+    monkeypatch.setattr(search, "_margin", lambda data: taken.append(data) or margin(data))
+    assert carrying(task, load) == sought
+    assert 0 < len(taken) == len(sought) < len(every)
 
 
 def test_json_of_a_search(gearlink: Any) -> None:

@@ -135,18 +135,25 @@ def candidates(task: PairTask) -> list[Candidate]:
         >>> best.pair.module, best.pair.teeth
         (3.0, (19, 61))
     """
+    found = [each for pair in _pairs(task) if (each := _candidate(task, pair)) is not None]
+    return sorted(found, key=_rank)
+
+
+def _pairs(task: PairTask) -> Iterator[GearPair]:
+    """Every pair that meets the task, its shifts shared for equal sliding."""
     every = [(module, teeth) for module in task.modules for teeth in pairs_of_teeth(task, module)]
     if len(every) > MOST_PAIRS:
         every = sorted(every, key=lambda one: abs(abs(one[1][1] / one[1][0]) - task.ratio))[:MOST_PAIRS]
-    found = [each for module, teeth in every if (each := _candidate(task, module, teeth)) is not None]
-    return sorted(found, key=_rank)
+    for module, teeth in every:
+        if (pair := _pair(task, module, teeth)) is not None:
+            yield pair
 
 
 def _rank(each: Candidate) -> tuple[bool, float, bool, float]:
     return each.margin < 0.0, round(abs(each.ratio_error), 9), not each.hunting, -each.margin
 
 
-def _candidate(task: PairTask, module: float, teeth: tuple[int, int]) -> Candidate | None:
+def _pair(task: PairTask, module: float, teeth: tuple[int, int]) -> GearPair | None:
     known = {"module": module, "teeth": teeth, "pressure_angle": task.pressure_angle, "helix_angle": task.helix_angle}
     try:
         pair = GearPair(**known, given_distance=task.distance)  # type: ignore[arg-type]
@@ -156,7 +163,14 @@ def _candidate(task: PairTask, module: float, teeth: tuple[int, int]) -> Candida
         except NoSolution:
             pair = diagonal.at(diagonal.shift_sum / 2.0)
         _ = pair.tip_pressure_angle
-        ratio = abs(pair.gear_ratio)
+    except NoSolution:
+        return None
+    return pair
+
+
+def _candidate(task: PairTask, pair: GearPair) -> Candidate | None:
+    ratio = abs(pair.gear_ratio)
+    try:
         return Candidate(pair, ratio, ratio / task.ratio - 1.0, _margin(GearData(pair=pair)))
     except NoSolution:
         return None
@@ -336,11 +350,15 @@ def carrying(task: PairTask, carried: Carried) -> list[Carrying]:
         ((20, 60), 21.0, 1.006, 2.028)
     """
     found = []
-    for each in candidates(task):
-        width = least_width(each.pair, carried)
-        if width is not None:
+    for pair in _pairs(task):
+        width = least_width(pair, carried)
+        if width is not None and (each := _candidate(task, pair)) is not None:
             found.append(Carrying(each, *width))
-    return sorted(found, key=lambda one: (one.candidate.margin < 0.0, one.width, abs(one.candidate.ratio_error)))
+
+    def rank(one: Carrying) -> tuple[bool, float, float, tuple[bool, float, bool, float]]:
+        return one.candidate.margin < 0.0, one.width, abs(one.candidate.ratio_error), _rank(one.candidate)
+
+    return sorted(found, key=rank)
 
 
 def smallest(task: PairTask, carried: Carried) -> tuple[float, list[Carrying]]:
