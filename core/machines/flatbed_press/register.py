@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -290,17 +290,25 @@ class RackLift:
         """
         bed, cylinder = self.motion.bed, self.motion.cylinder
         cam = bed.cam_angle(input_angle).value
-        there = bed.input_angle(cam + turned)
-        found = difference(bed, cylinder, there).value - difference(bed, cylinder, input_angle).value
+        found = _of_finite(self._gap, cam + turned) - difference(bed, cylinder, input_angle).value
         outside = self._outside(input_angle)
         if outside.any():
-            found = np.where(outside, self._lift(cam + turned) - self._lift(cam), found)
+            found = np.where(outside, _of_finite(self._lift, cam + turned) - _of_finite(self._lift, cam), found)
         return found
 
+    def _gap(self, cam_angle: Any) -> Any:
+        """By how much the bed is ahead of the cylinder [mm] where CD stands at an angle."""
+        return difference(self.motion.bed, self.motion.cylinder, self.motion.bed.input_angle(cam_angle)).value
+
     def _lift(self, cam_angle: Any) -> Any:
-        """Lift of the follower [mm] over an array of any shape; NaN where the angle is."""
-        angles = np.asarray(cam_angle)
-        finite = np.isfinite(angles)
-        found = np.full(angles.shape, math.nan)
-        found[finite] = self.design.cams.follower.lift(angles[finite], 0).value
-        return found
+        """Lift of the follower [mm]."""
+        return self.design.cams.follower.lift(cam_angle, 0).value
+
+
+def _of_finite(function: Callable[[Any], Any], angle: Any) -> Any:
+    """A function over angles of any shape; NaN at those of machines that do not close."""
+    angles = np.asarray(angle)
+    finite = np.isfinite(angles)
+    found = np.full(angles.shape, math.nan)
+    found[finite] = function(angles[finite])
+    return found

@@ -205,6 +205,16 @@ def test_a_mesh_that_does_not_exist_and_gears_that_are_not_given_are_refused() -
         made.report("register")
 
 
+def test_a_machine_that_does_not_close_has_no_error() -> None:
+    """The others have theirs; the angle of its slider's crank was refused for all."""
+    frame, phi = "bed.double_crank.frame", np.radians([70.0, 120.0])
+    made, none = press({frame: {"plus_minus": 0.005}}), np.array([0.0, 200.0, 0.005])
+    found = made.sampled_errors(phi, 1, {frame: none})
+    assert np.isnan(found[:, 1]).all()
+    alone = [made.sampled_errors(phi, 1, {frame: none[[k]]})[:, 0] for k in (0, 2)]
+    assert found[:, [0, 2]] == pytest.approx(np.transpose(alone), abs=1e-12)
+
+
 @pytest.mark.slow
 def test_samples_of_the_chain_are_the_budget() -> None:
     """Sources of this size are linear; cam error and backlash are counted in both. A quantile of 2^14 samples: 2 %."""
