@@ -363,8 +363,8 @@ def extremes_of_parts(
             ends = np.cumsum([grid.x.shape[-1] for grid in grids]).tolist()
             spans = [slice(end - grid.x.shape[-1], end) for grid, end in zip(grids, ends, strict=True)]
             return [
-                _extremes_of_rows(wanted, [values[k][..., span] for k in of], grid)
-                for grid, span in zip(grids, spans, strict=True)
+                _extremes_of_rows([wanted[k] for k in numbers], [values[of[k]][..., span] for k in numbers], grid)
+                for numbers, grid, span in zip(some, grids, spans, strict=True)
             ]
         first = 0
         for number, each in rounds:

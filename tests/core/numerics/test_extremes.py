@@ -165,6 +165,21 @@ def test_a_place_beside_an_end_that_is_better_by_more_than_rounding_stays() -> N
     assert top.place == pytest.approx(kink, abs=4 * EPS)
 
 
+@pytest.mark.parametrize("rows", [1, 3])
+def test_of_each_interval_those_that_are_wanted_there(rows: int) -> None:
+    """As each is found by itself; of functions with rows likewise."""
+    shift = np.linspace(0.0, 1.0, rows)[:, None] if rows > 1 else 0.0
+    wanted = [(lambda x: np.sin(x + shift), True), (lambda x: np.cos(2.0 * x + shift), False)]
+    parts, sought = [(0.0, 3.0), (1.0, 4.0), (2.0, 6.0)], [(0, 1), (1,), (0,)]
+    found = extremes_of_parts(wanted, parts, sought=sought)
+    for part, numbers, of_part in zip(parts, sought, found, strict=True):
+        (alone,) = extremes_of_parts([wanted[k] for k in numbers], [part])
+        assert len(of_part) == len(numbers)
+        for one, other in zip(of_part, alone, strict=True):
+            assert np.array_equal(one.value, other.value)
+            assert np.array_equal(one.place, other.place)
+
+
 @pytest.mark.parametrize(("steep", "size"), [(45.19, 2.81), (35.92, 0.52), (10.49, 1.54), (8.31, 0.25)])
 def test_a_search_ends_where_it_meets_a_pole(steep: float, size: float) -> None:
     """Of one random pole in a hundred a sample is the pole itself: no parabola goes through inf, and none is above."""
