@@ -9,6 +9,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.design import placed
 from gearlink.core.base.wording import apart
 
 if TYPE_CHECKING:
@@ -96,8 +97,22 @@ class OutputSpeed:
 
 
 class SliderSpeed(RealSpeed):
-    """Maximum and minimum velocity [mm/s] and acceleration [mm/s^2] of a slider, from its rates by the input angle."""
+    """Maximum and minimum velocity and acceleration of a slider, by the input angle and in real time [mm/s, mm/s^2].
 
+    Fields
+        fastest, hardest : two Turnings - maximum, then minimum of its velocity [mm/rad] and acceleration [mm/rad^2]
+    """
+
+    fastest: Any
+    hardest: Any
+    velocity_max: float = placed("fastest.0.value")
+    velocity_max_at: float = placed("fastest.0.place")
+    velocity_min: float = placed("fastest.1.value")
+    velocity_min_at: float = placed("fastest.1.place")
+    acceleration_max: float = placed("hardest.0.value")
+    acceleration_max_at: float = placed("hardest.0.place")
+    acceleration_min: float = placed("hardest.1.value")
+    acceleration_min_at: float = placed("hardest.1.place")
     slider_velocity_max: float | None = per_time("velocity_max", 1)
     slider_velocity_min: float | None = per_time("velocity_min", 1)
     slider_acceleration_max: float | None = per_time("acceleration_max", 2)

@@ -846,14 +846,6 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
         every = self._turnings[1]
         return max(every, key=lambda each: each.value), min(every, key=lambda each: each.value)
 
-    velocity_max: float = placed("fastest.0.value")
-    velocity_max_at: float = placed("fastest.0.place")
-    velocity_min: float = placed("fastest.1.value")
-    velocity_min_at: float = placed("fastest.1.place")
-    acceleration_max: float = placed("hardest.0.value")
-    acceleration_max_at: float = placed("hardest.0.place")
-    acceleration_min: float = placed("hardest.1.value")
-    acceleration_min_at: float = placed("hardest.1.place")
     dwell_time: float | None = per_time("_dwell_reached", -1)
 
     @property

@@ -249,14 +249,6 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         found.sort(key=lambda turning: turning.value)
         return [found[-1], found[0]]
 
-    velocity_max: float = placed("fastest.0.value")
-    velocity_max_at: float = placed("fastest.0.place")
-    velocity_min: float = placed("fastest.1.value")
-    velocity_min_at: float = placed("fastest.1.place")
-    acceleration_max: float = placed("hardest.0.value")
-    acceleration_max_at: float = placed("hardest.0.place")
-    acceleration_min: float = placed("hardest.1.value")
-    acceleration_min_at: float = placed("hardest.1.place")
     forward_time: float | None = per_time("forward_angle", -1)
     return_time: float | None = per_time("return_angle", -1)
 
