@@ -46,10 +46,10 @@ class MotionLawSpec(DesignSpec):
     @model_validator(mode="after")
     def _one_time(self) -> MotionLawSpec:
         if self.time is not None and self.speed is not None:
-            raise _refused("speed", "time and speed say the same\nomit time or speed")
+            raise refused("time and speed say the same\nomit time or speed", "speed")
         if (self.speed is None) != (self.angle is None):
             key = "angle" if self.angle is None else "speed"
-            raise _refused(key, "speed and angle go together\ngive both, or time")
+            raise refused("speed and angle go together\ngive both, or time", key)
         return self
 
     @property
@@ -62,10 +62,6 @@ class MotionLawSpec(DesignSpec):
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
         return ("laws",)
-
-
-def _refused(key: str, message: str) -> Any:
-    return refused(message, key)
 
 
 _QUANTITIES = (

@@ -259,7 +259,7 @@ def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:
     """Links and gears to scale in the dwell position; lightly, gears 1 and 5 at their closest."""
     angle, words = dwell_position(design)
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(angle) % 360.0:.5g}°")
-    scene = scene_axes.turned(axes, design, build, angle / (TURN), 0.0)
+    scene = scene_axes.turned(axes, design, build, angle / TURN, 0.0)
     if abs(math.remainder(angle, TURN)) > math.radians(1.0):
         scene_axes.lightly(
             axes, scene, 1, name="crank along the frame" if design.gear_gap is None else "gears 1 and 5 closest"

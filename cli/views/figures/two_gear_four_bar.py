@@ -75,7 +75,7 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     phi = places[0] if places else design.speed_ratio_min_at
     words = "standstill" if places else "minimum output speed"
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
-    scene = scene_axes.turned(axes, design, build, phi / (TURN))
+    scene = scene_axes.turned(axes, design, build, phi / TURN)
     pole, d = cmath.rect(abs(design.mesh.reference_radius[1]), phi), complex(design.frame_length)
     axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
     joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)
