@@ -166,6 +166,15 @@ def test_a_tornado_has_no_panel_of_rounding() -> None:
     assert not any("agreement" in title for title in titles)
 
 
+def test_two_limits_have_one_name_in_the_legend_of_a_tornado() -> None:
+    (axes,) = tolerance.draw_tornado(design("slider_crank_tolerances")).axes
+    words = axes.get_legend_handles_labels()[1]
+    assert words.count("limit") == 1
+    assert (
+        len([line for line in axes.lines if line.get_linestyle() == style.CHAIN or line.get_color() == style.RED]) == 2
+    )
+
+
 @pytest.mark.slow
 def test_four_quantities_of_one_source_have_room_below_a_stamp() -> None:
     """Panels for one bar were lower than their words: the layout gave up with a warning, all lay on each other."""
