@@ -211,6 +211,6 @@ def _panel(axes: Axes, study: ToleranceStudy, name: str, rows: list[tuple[str, f
     axes.axvline(0.0, color=style.BLACK, linewidth=0.9)
     axes.set_yticks(range(len(shown)), [row[0] for row in shown])
     for i, limit in enumerate(one for one in study.limits(name) if one is not None):
-        label = None if i else "limit"
-        axes.axvline(limit - nominal, color=style.RED, linewidth=1.4, linestyle=style.CHAIN, label=label)
+        once = None if i else "limit"
+        axes.axvline(limit - nominal, color=style.RED, linewidth=1.4, linestyle=style.CHAIN, label=once)
     panels.legend_under_heading(axes, f"{words}: nominal {style.number(nominal, 6)} {unit}".removesuffix(" 1"), 4)
