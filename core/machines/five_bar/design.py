@@ -495,7 +495,7 @@ class FiveBarParts(Meshed):
         bar, positions = self.start_function, self.positions
         if positions is not None:
             with at_key("target.positions"):
-                from gearlink.core.machines.five_bar.position_fit import five_bar_for_positions
+                from gearlink.core.machines.five_bar.function_fit import five_bar_for_positions
 
                 bar = five_bar_for_positions(bar, positions, math.radians(self.spec.limits.transmission_angle))
         with at_key("range" if self.spec.range is not None else "links"):

@@ -23,10 +23,10 @@ from sweeps import ALL, examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.fit import fit_path, judge
+from gearlink.core.machines.five_bar.function_fit import five_bar_for_positions
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import coupler_angles, distances, extent, points, rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.machines.five_bar.position_fit import five_bar_for_positions
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.linkages.dyad import close_dyad, transmission_angle

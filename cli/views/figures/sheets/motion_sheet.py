@@ -18,7 +18,7 @@ from gearlink.cli.views.figures.sheets import cam_sheets
 from gearlink.cli.views.scenes.shown import speed_of
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.mechanism import dwells
+from gearlink.core.mechanism.courses import Dwell, gain_of, longest_dwell
 from gearlink.core.mechanism.motion import Input
 from gearlink.core.numerics.extremes import extremes_over
 
@@ -242,9 +242,9 @@ _WIDER = 0.35
 """Of a dwell: shown to each side of it."""
 
 
-def dwell_of(design: Any) -> dwells.Dwell | None:
+def dwell_of(design: Any) -> Dwell | None:
     """The dwell of the first output within what the file allows."""
-    return dwells.dwell_of(design.moving, _asked(design), dwells="dwell" in design.kind)
+    return longest_dwell(design.moving, _asked(design), dwells="dwell" in design.kind)
 
 
 def _asked(design: Any) -> float | None:
@@ -265,7 +265,7 @@ def dwell(design: Any) -> Figure:
     if motion.input.turns is None:
         q = q[(q >= motion.input.start) & (q <= motion.input.end)]
     y, rate = output.course.rates(motion, np.asarray(q % _TURN if motion.input.turns else q), 1)
-    y = y + (dwells.gain_of(motion) or 0.0) * np.floor(q / _TURN)
+    y = y + (gain_of(motion) or 0.0) * np.floor(q / _TURN)
     angle = output.course.unit == "rad"
     error = np.degrees(y - found.middle) if angle else y - found.middle
     tolerance = math.degrees(found.tolerance) if angle else found.tolerance
