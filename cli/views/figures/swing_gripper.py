@@ -32,6 +32,7 @@ from gearlink.cli.views.scenes.scene import (
     track,
     wheel,
 )
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.swing_gripper.design import SwingGripper, drum_axis
 from gearlink.core.machines.swing_gripper.mechanism import without_cams
 
@@ -54,6 +55,8 @@ def build(design: SwingGripper, fraction: Reals) -> Scene:
             Line(points=path, color=style.ORANGE, width=2.0, name="path of the sheet's edge"),
             *_drum(design, fraction),
             *_cam_bodies(design, here),
+            *_finger_parts(design, here),
+            *_stop(design, fraction),
             here.body("output", plate, style.BLACK, 0.12, width=0.5),
             Chain(joints=(a, c, d, e), color=style.BLUE),
             Chain(joints=(d, e, f)),
@@ -114,6 +117,48 @@ def _cam_bodies(design: SwingGripper, here: Positions) -> list[Part]:
     return parts
 
 
+def _finger_parts(design: SwingGripper, here: Positions) -> list[Part]:
+    """The cam of the fingers about E, which turns with the cylinder, and its roller on the lever of the arm."""
+    spec, section = design.spec, design.spec.fingers
+    if section is None:
+        return []
+    cam_turn = math.radians(spec.arm.direction) - spec.swing_sense * here.inputs
+    try:
+        cam = disc_cam(design.fingers.cam, here.at("output"), cam_turn, style.PURPLE)
+    except NoSolution:  # the arm returns as fast as it turns
+        return []
+    tip = here.now.links["output"].points["F"]
+    along = tip / abs(tip)
+    opened = design.fingers.opening(np.degrees(here.inputs), 0)[0]
+    lever = section.lever * along * np.exp(1j * (math.radians(section.angle) + opened + here.turn("output")))
+    pivot = here.at("output", section.pivot * along)
+    roller = wheel(pivot + lever, section.roller_radius, here.inputs, color=style.PURPLE, fill=pale(style.PURPLE, 0.3))
+    return [cam, Chain(joints=(pivot, pivot + lever), color=style.PURPLE, marked=False), roller]
+
+
+def _stop(design: SwingGripper, fraction: Reals) -> list[Part]:
+    """The stop beside the arm at the pick-up position, where the arm comes back to it."""
+    spec, section = design.spec, design.spec.stop
+    if section is None:
+        return []
+    along = cmath.rect(1.0, math.radians(spec.arm.direction))
+    size = _STOP_SIZE * spec.arm.length
+    corners = np.array([-0.5, 0.5, 0.5 - 1j * spec.swing_sense, -0.5 - 1j * spec.swing_sense, -0.5])
+    place = track(complex(design.linkage.output_pivot) + section.radius * along, fraction)
+    return [
+        Body(
+            outline=size * along * corners,
+            place=place,
+            turn=np.zeros_like(fraction),
+            color=style.BLACK,
+            fill=pale(style.GREY, 0.6),
+            name="stop",
+        )
+    ]
+
+
+_STOP_SIZE = 0.06
+"""Of the arm's length."""
 _ROWS = 1440
 _HANDOVER = style.RED
 
@@ -201,7 +246,7 @@ def mechanism(axes: Axes, design: SwingGripper) -> None:
     panels.drawing(axes, "Mechanism at the pick-up position, to scale")
     far = design.law.starts[3]
     stations = (
-        ("bite", 0.0, style.BLUE, "-"),
+        ("pick-up", 0.0, style.BLUE, "-"),
         ("handover", design.motion.handover, _HANDOVER, style.DASHED),
         ("far dwell", far, style.GREEN, style.DOTTED),
     )

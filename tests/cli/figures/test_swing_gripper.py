@@ -12,9 +12,13 @@ import math
 from pathlib import Path
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
 from sheets import Sheet, lines, named, odd_sheets, panel, panel_named, placed_sheet, points, scaled, sheet
+
+from gearlink.cli.views.figures.swing_gripper import build
+from gearlink.cli.views.scenes.scene import Body
 
 LENGTHS = {"radius", "length", "input", "coupler", "output", "center", "arm", "shaft_radius"}
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "gripper.json").read_text())
@@ -76,7 +80,7 @@ def test_handover_is_marked_on_the_curves(gripper: Sheet) -> None:
         assert (dot.get_xdata()[0], dot.get_ydata()[0]) == pytest.approx((106.0, at_handover), rel=1e-12)
 
 
-@pytest.mark.parametrize(("label", "degrees"), [("bite, 0°", 0), ("handover, 106°", 106), ("far dwell, 162°", 162)])
+@pytest.mark.parametrize(("label", "degrees"), [("pick-up, 0°", 0), ("handover, 106°", 106), ("far dwell, 162°", 162)])
 def test_positions_close_and_agree_with_the_table(gripper: Sheet, label: str, degrees: int) -> None:
     made, figure = gripper
     a, c, d, e = points(lines(panel(figure, "Mechanism"))[label])
@@ -120,6 +124,34 @@ def test_torques_are_the_table_of_forces(gripper: Sheet) -> None:
     ):
         np.testing.assert_allclose(drawn_lines[label].get_ydata()[::4], column[name], rtol=1e-12, atol=1e-9)
     assert drawn_lines["spring 400 N m"].get_ydata()[0] == 400.0
+
+
+# Stop and fingers
+
+
+def test_finger_roller_touches_its_cam_through_the_turn() -> None:
+    """The outline has a point each half degree, 1.3 mm apart: from its chords a circle of 8 mm is 0.05 mm off at most.
+
+    The cam turns with the cylinder, the roller with the arm: neither is placed by the other.
+    """
+    fraction = np.linspace(0.0, 1.0, 37)
+    made = factory.design("swing_gripper_stop")
+    outlines = [part for part in build(made, fraction).parts if isinstance(part, Body)]
+    at = [part.name for part in outlines].index("finger cam")
+    cam, roller = outlines[at : at + 2]
+    contour = cam.place + cam.outline[:, None] * np.exp(1j * cam.turn)
+    assert np.unwrap(cam.turn)[-1] - cam.turn[0] == pytest.approx(2.0 * math.pi, rel=1e-12)
+    np.testing.assert_allclose(np.abs(contour - roller.place).min(axis=0), 8.0, rtol=0.0, atol=0.06)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_stop_touches_the_arm_at_the_pick_up_position_behind_it(sense: int) -> None:
+    made = factory.design("swing_gripper_stop", swing_sense=sense)
+    scene = build(made, np.array([0.0, 0.1]))
+    block = next(part for part in scene.parts if getattr(part, "name", "") == "stop")
+    corners = (block.place[0] + block.outline - complex(*made.spec.pivots.output)) * np.exp(-1j * math.radians(125.0))
+    assert corners.real.min() < 280.0 < corners.real.max()
+    assert sorted({round(y, 9) for y in corners.imag}) == sorted([0.0, -sense * 18.0])
 
 
 # cam

@@ -123,4 +123,4 @@ def gripper(design: Any) -> Timing:
     arm = Ring("arm", panels.phases_of(without_cams(design).outputs[0]))
     handover = design.motion.handover
     held = Ring("sheet", (panels.Phase("contact", 0.0, handover), panels.Phase("free", handover, 360.0)))
-    return [arm, held], [("bite", 0.0), ("handover", handover)], "cylinder"
+    return [arm, held], [("pick-up", 0.0), ("handover", handover)], "cylinder"
