@@ -33,8 +33,8 @@ def transmission_check(
     """
     value, note = math.degrees(angle), ""
     if angle < _POOR:
-        enlarged = short(1.0 / math.sin(angle)) if angle else "infinitely many"
-        note = f"clearance and rounding errors are magnified up to {enlarged} times there (condition number)"
+        enlarged = f"up to {short(1.0 / math.sin(angle))} times" if angle else "without bound"
+        note = f"clearance and rounding errors are magnified {enlarged} there (condition number)"
     return TRANSMISSION_ANGLE.below(value, limit, limit + _LITTLE, "deg", subject, remedy, at=at, note=note)
 
 

@@ -57,6 +57,18 @@ def small(name: str) -> Exploration:
     )
 
 
+def test_points_of_a_range_are_evenly_spaced_or_in_equal_ratios() -> None:
+    ranges = {
+        "gears.idler": {"from": 60, "to": 72, "points": 5},
+        "dwell.angle": {"from": 90, "to": 100, "points": 5},
+        "gears.module": {"from": 1, "to": 4, "points": 3, "log": True},
+    }
+    found = [variable.values for variable in study(variables=ranges, minimize={"frame_length": 0.1}).problem.variables]
+    assert found[0] == (60, 63, 66, 69, 72)
+    assert found[1] == pytest.approx((90.0, 92.5, 95.0, 97.5, 100.0), rel=1e-15)
+    assert found[2] == pytest.approx((1.0, 2.0, 4.0), rel=1e-15)
+
+
 def test_study_of_record() -> None:
     want, found = CASES["dwell-study-small"]["expected"], small("dwell-study-small")
     assert (found.designs, found.refused, found.feasible) == (want["designs"], want["refused"], want["feasible"])

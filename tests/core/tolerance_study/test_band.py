@@ -28,6 +28,24 @@ def study(data: dict[str, Any], /, **section: Any) -> Any:
     return factory.design(data | {"tolerance": section}, command="tolerance")
 
 
+@pytest.mark.parametrize(
+    ("entry", "limits"),
+    [
+        ({"plus_minus": 0.02}, (-0.02, 0.02)),
+        ({"lower": -0.01, "upper": 0.03}, (-0.01, 0.03)),
+        ({"limits": [-0.04, -0.01]}, (-0.04, -0.01)),
+        ({"sigma": 0.01}, (-0.03, 0.03)),
+        ({"measured": 40.02}, (0.02, 0.02)),
+        ({"class": "h7"}, (-0.025, 0.0)),  # ISO 286: IT7 of 40 mm
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+)
+def test_limits_of_a_size_in_each_form(entry: dict[str, Any], limits: tuple[float, float]) -> None:
+    (source,) = study(SLIDER, sources={"crank": entry}).problem.sources
+    assert (source.law.lower, source.law.upper) == pytest.approx(limits, abs=1e-14)
+    assert source.limit == pytest.approx(max(map(abs, limits)), abs=1e-14)
+
+
 def test_arrays_are_the_drives_one_by_one() -> None:
     sources = {"links.crank": {"plus_minus": 0.05}, "centers.crank_idler": {"plus_minus": 0.05}}
     made = study(CANDY, sources=sources).problem

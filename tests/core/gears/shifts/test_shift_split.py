@@ -105,6 +105,18 @@ def test_candidates_stand_side_by_side() -> None:
     table = design(spec([17, 53], [0.3, 0.3], tool=HOB)).table("candidates")
     assert table.data[0] == ["given", "equal", "sliding", "tip", "root", "undercut"]
     assert all(math.isclose(a + b, 0.6, rel_tol=1e-14) for a, b in zip(table.data[1], table.data[2], strict=True))
+    for row, (first, second) in enumerate(zip(table["x1"], table["x2"], strict=True)):
+        one = design(spec([17, 53], [float(first), float(second)], tool=HOB))
+        bent = [each.form_factor * each.stress_correction_factor for each in one.data.root.sections]
+        wanted = {
+            "sliding": one.raw("specific_sliding"),
+            "tip_thickness": one.raw("tip_thickness"),
+            "root_factor": bent,
+            "undercut_margin": [float(first) - one.raw("min_shift_no_undercut")[0]],
+        }
+        for name, values in wanted.items():
+            for gear, value in enumerate(values, 1):
+                assert table[f"{name}_{gear}"][row] == pytest.approx(value, rel=1e-12)
 
 
 def test_no_candidate_for_equal_roots_has_a_pointed_tooth() -> None:
