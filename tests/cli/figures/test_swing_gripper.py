@@ -104,7 +104,7 @@ def test_drum_touches_the_tip_on_the_line_of_centres(gripper: Sheet) -> None:
 
 
 @pytest.mark.slow
-def test_given_axis_of_the_cylinder_is_drawn(gripper: Sheet) -> None:
+def test_given_axis_of_the_cylinder_is_drawn() -> None:
     figure = sheet(PAPER, "gripper", cylinder__center=[430.0, 480.0]).figure
     drum = points(named(panel(figure, "Mechanism"))["feed drum, radius 135 mm"])
     np.testing.assert_allclose(np.abs(drum - (430.0 + 480.0j)), 135.0, rtol=1e-12)
