@@ -79,6 +79,13 @@ def test_the_directions_that_are_named_are_clear_to_the_tenth() -> None:
         assert _places(_press(loads__cylinder_direction=beyond - 360.0))[0][0] == "warn"
 
 
+def test_gears_too_near_for_any_direction_are_told_how_far_apart_they_must_be() -> None:
+    """Above N at 13 + 40 mm the axis must stand 113 + 140 mm high: 200 mm, to the three digits of a direction."""
+    (_, message), *_ = _places(_press(loads__cylinder_direction=170, loads__cylinder_gear_radius=50))
+    least = float(message.partition("set the gears at least ")[2].removesuffix(" mm apart"))
+    assert 199.99 < least < 200.1
+
+
 def test_a_cylinder_over_an_axis_is_told_by_how_much() -> None:
     found = _places(_press(loads__cylinder_direction=90))
     press = _press(loads__cylinder_direction=90)
