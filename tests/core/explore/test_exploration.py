@@ -7,17 +7,22 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import factory
+import numpy as np
 import pytest
 
 from gearlink.core.base.codes import rules
+from gearlink.core.base.design_axis import Findings
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Check, Rule, Status
 from gearlink.core.studies.explore import front
 from gearlink.core.studies.explore.base import single
+from gearlink.core.studies.explore.chunks import _of_code
 from gearlink.core.studies.explore.exploration import Exploration
 from gearlink.core.studies.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.studies.study.spec import StudySpec
@@ -67,6 +72,26 @@ def test_points_of_a_range_are_evenly_spaced_or_in_equal_ratios() -> None:
     assert found[0] == (60, 63, 66, 69, 72)
     assert found[1] == pytest.approx((90.0, 92.5, 95.0, 97.5, 100.0), rel=1e-15)
     assert found[2] == pytest.approx((1.0, 2.0, 4.0), rel=1e-15)
+
+
+@pytest.mark.parametrize("warn_counts", [False, True])
+def test_of_several_findings_of_a_code_the_failing_one_nearest_to_its_limit_is_told(warn_counts: bool) -> None:
+    """By hand: a design that passes, one with a single failure, two that fail, and one that only warns."""
+    yes, no = True, False
+    first = ([5.0, 3.0, 30.0, -9.0], [yes, yes, yes, no], [no, no, no, yes])
+    second = ([8.0, 8.0, 38.0, 8.0], [no, no, yes, no], [no, no, no, no])
+    found = SimpleNamespace(
+        findings=[
+            Findings("GL303", np.array(value), np.full(4, limit), np.array(fails), np.array(warns), "deg")
+            for (value, fails, warns), limit in ((first, -4.0), (second, 40.0))
+        ]
+    )
+    fails, (value, limit, unit) = _of_code("GL303", found, warn_counts=warn_counts, count=4)
+    assert fails.tolist() == [True, True, True, warn_counts]
+    last = (-9.0, -4.0) if warn_counts else (math.nan, math.nan)
+    assert unit == "deg"
+    np.testing.assert_array_equal(value, [5.0, 3.0, 38.0, last[0]])
+    np.testing.assert_array_equal(limit, [-4.0, -4.0, 40.0, last[1]])
 
 
 def test_study_of_record() -> None:

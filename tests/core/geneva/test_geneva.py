@@ -101,9 +101,13 @@ def test_wheel_of_several_pins_runs_on() -> None:
     assert found.contact_force_max is None
 
 
-def test_comparison_at_equal_step() -> None:
-    """Dwells within the tolerance by dense rows of each motion; the cam's peaks those of a modified sine."""
-    found = design("geneva_drive")
+@pytest.mark.parametrize("assembly", [1, -1])
+def test_comparison_at_equal_step(assembly: int) -> None:
+    """Dwells within the tolerance by dense rows of each motion; the cam's peaks those of a modified sine.
+
+    The mirror image of the compared drive runs backwards: where the one accelerates most the other decelerates most.
+    """
+    found = design("geneva_drive", compare__assembly=assembly)
     table = found.table("comparison")
     assert table["step"] == pytest.approx([60.0] * 3, rel=1e-14)
     rows = np.radians(np.linspace(0.0, 360.0, 360_001))
@@ -115,6 +119,9 @@ def test_comparison_at_equal_step() -> None:
         math.radians(60.0) * 4.0 * math.pi**2 / (math.pi + 4.0) / share**2, rel=1e-13
     )
     assert table["dwell"][2] == pytest.approx(math.degrees(found.compared.tolerance_dwell_angle), rel=1e-14)
+    motion = found.compared.table("motion", samples=3600)
+    for name in ("speed_ratio", "acceleration_ratio"):  # rows a tenth of a degree apart leave 1e-6 of a maximum
+        assert table[f"{name}_max"][2] == pytest.approx(np.abs(motion[name]).max(), rel=1e-5)
     peak = table["acceleration_ratio_max"]
     assert table["steps_per_minute"] == pytest.approx(60.0 * np.sqrt(peak[0] / peak), rel=1e-14)
 
