@@ -277,7 +277,7 @@ def _design(loaded: LoadedFile, path: KeyPath, member: dict[str, Any]) -> dict[s
         return None
     below = loaded.part((*path, "design"))
     try:
-        validate(below, _model_of(below))
+        _validate_member(below)
     except DesignFileError as error:
         raise DesignFileError([_below(each, f"{format_path(path)}.design") for each in error.diagnostics]) from None
     return {"name": path[1], **below.data}
@@ -304,16 +304,20 @@ def _of_file(loaded: LoadedFile, path: KeyPath, of: str, put_over: dict[str, Any
             for each in loaded.overrides
             if each.path[: len(path) + 1] == (*path, "design") and len(each.path) > len(path) + 1
         ]
-    validate(found, _model_of(found))
+    _validate_member(found)
     return {"name": stem_of(str(place)), **found.data}
 
 
-def _model_of(loaded: LoadedFile) -> type[BaseModel]:
-    """The model of a member's kind."""
+def _validate_member(loaded: LoadedFile) -> None:
+    """Validate a member by its kind; one that is none of a member the model of the machine refuses.
+
+    Its own members are not read then: they may be the machine that is being read.
+    """
     from gearlink.core.base.kinds import KINDS
 
-    model: type[BaseModel] = KINDS[read_kind(loaded, tuple(KINDS))].spec_model()
-    return model
+    kind = KINDS[read_kind(loaded, tuple(KINDS))]
+    if kind.motion:
+        validate(loaded, kind.spec_model())
 
 
 def _over(data: dict[str, Any], put: dict[str, Any]) -> dict[str, Any]:

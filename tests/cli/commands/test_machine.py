@@ -71,10 +71,13 @@ def test_errors_stand_in_the_file_of_the_member(gearlink: Any, files: Path) -> N
         ("{of: parts/feed.yaml, ratio: 0}", "members.feed.ratio", "GL108"),
         ("{of: parts/feed.yaml, phase: soon}", "members.feed.phase", "GL107"),
         ("{of: parts/feed.txt}", "members.feed.of", "GL101"),
+        ("{of: machine.yaml}", "members.feed.design", "GL109"),
+        ("{of: parts/other.yaml}", "members.feed.design", "GL109"),
     ],
 )
 def test_what_is_wrong_with_a_member(gearlink: Any, files: Path, text: str, key: str, code: str) -> None:
     (files / "machine.yaml").write_text(MACHINE.replace("{of: parts/feed.yaml, phase: 20 deg}", text))
+    (files / "parts" / "other.yaml").write_text(MACHINE.replace("parts/feed.yaml", "../machine.yaml"))
     found = errors(gearlink("analyze", str(files / "machine.yaml"), "--format", "json"))
     assert any(each["key"].startswith(key) and each["code"].startswith(code) for each in found), found
 
