@@ -144,7 +144,9 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     if len(kind) <= _LONGEST_KIND:
         spelled = _spelled(kind)
         near = get_close_matches(spelled, kinds, n=1, cutoff=0.8) or kinds_named(kind, kinds)
-        near = near or get_close_matches(spelled, kinds, n=1)
+        near = (
+            near or [each for each in kinds if each.startswith(f"{spelled}-")] or get_close_matches(spelled, kinds, n=1)
+        )
     remedy = f"did you mean {' or '.join(near)}? {known}" if near else known
     shown = repr(kind if len(kind) <= _LONGEST_KIND else kind[: _LONGEST_KIND - 3] + "...")
     raise DesignFileError([*loaded.problems, loaded.report("GL109", f"no kind {shown}", ("kind",), help=remedy)])

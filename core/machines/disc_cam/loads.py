@@ -161,7 +161,7 @@ class FollowerCamLoads(_Loads):
         return super().change_of_side if self.has_pair else "the roller changes walls"
 
     @property
-    def side_remedy(self) -> str:  # type: ignore[override]
+    def side_remedy(self) -> str:
         """What holds it on one side."""
         if self.has_pair:
             return super().side_remedy

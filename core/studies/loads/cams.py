@@ -89,6 +89,10 @@ _DERIVED = frozenset(CONTACT) - {"contact_force_max", "contact_force_min", "hert
 _OF_EXTREMES = frozenset(CONTACT) - {"traction_needed", "cam_torque_rms", "preload_needed"}
 
 
+def _preload_fix(needed: float) -> str:
+    return f"set loads.roller.preload to {safely_above(needed)}"
+
+
 class CamLoadsDesign(LoadsDesign):
     """Loads of a machine with rollers on cams; a subclass says where they are and how hard they press.
 
@@ -389,7 +393,7 @@ class CamLoadsDesign(LoadsDesign):
             return
         given = self.section.roller.preload
         status: Status = "warn" if given < needed else "pass"
-        fix = f"set loads.roller.preload to {safely_above(needed)}"
+        fix = _preload_fix(needed)
         yield PRELOAD.check(status, "preload that holds both rollers on their cams", given, needed, "N", fix=fix)
 
     @property
@@ -434,4 +438,11 @@ class CamLoadsDesign(LoadsDesign):
             yield LOAD_REVERSAL.check("pass", "the follower stays on one side", 0.0, 0.0, shown=NO_NUMBER)
 
     change_of_side: ClassVar[str] = "the follower changes cams"
-    side_remedy: ClassVar[str] = "press both rollers on (loads.roller.preload)"
+
+    @property
+    def side_remedy(self) -> str:
+        """What keeps a follower between two cams on both."""
+        needed = self.preload_needed
+        if needed is None or self.section.roller is None:
+            return "press both rollers on (loads.roller.preload)"
+        return _preload_fix(needed)

@@ -143,6 +143,17 @@ def test_the_preload_of_a_conjugate_pair_is_parted_by_the_stiffness() -> None:
     assert [check.status for check in design.check("preload")] == ["pass"]
 
 
+def test_a_pair_that_changes_cams_is_told_the_preload_that_holds_it() -> None:
+    """Followed as it is written, the advice leaves neither a strike nor a roller that opens."""
+    keys: dict[str, Any] = {"closure": "conjugate", "return_roller": {"radius": 10}, "spring": None}
+    keys |= {"follower": {**SLIDE["follower"], "offset": 0}}
+    (found,) = loads(**keys).check("load-reversal")
+    key, value = re.fullmatch(r"set (\S+) to ([\d.]+)", found.fix).groups()  # type: ignore[union-attr]
+    assert (found.status, key) == ("warn", "loads.roller.preload")
+    design = loads(**keys, loads={**SLIDE["loads"], "roller": {"width": 15, "preload": float(value)}})
+    assert [check.status for name in ("load-reversal", "preload") for check in design.check(name)] == ["pass"]
+
+
 @pytest.mark.parametrize("key", ["preload", "stiffness"])
 @pytest.mark.parametrize("closure", ["groove", "spring"])
 def test_one_roller_has_no_preload(closure: str, key: str) -> None:
