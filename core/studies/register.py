@@ -16,7 +16,7 @@ import numpy as np
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, named
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.torsion import torsional_stiffness
 from gearlink.core.base.wording import short
@@ -29,7 +29,7 @@ from gearlink.core.numerics.roots_sweep import zeros
 from gearlink.core.studies.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
 from gearlink.core.studies.loads.names import RPM
 from gearlink.core.studies.movable import Errors, Movable
-from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted
+from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted, tightened
 from gearlink.core.studies.tolerance.correlation import coordinate_root, of_sizes, together
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import is_shared, of_replications, replication, rounded_up
@@ -488,12 +488,20 @@ class RegisterDesign(Design):
             return
         band, worst = max(self.band), max(self.worst)
         status: Status = "fail" if band > limit else "warn" if worst > limit else "pass"
-        fix = ""
-        if status != "pass":
-            sign = self.band.index(band)
-            first = max(self.budgets[sign].rows, key=lambda row: row.share)
-            fix = f"tighten {first.source} ({short(100.0 * first.share, 3)} % of the variance)"
+        fix = "" if status == "pass" else self._tighter(limit, at_worst=status == "warn")
         yield budget_check(status, f"register error {self._where}", band, worst, limit, fix)
+
+    def _tighter(self, limit: float, *, at_worst: bool) -> str:
+        """The sources that are to be tightened, and how much; where the band is one of samples, by their budget."""
+        start = 0 if self.input_angles.size > 1 else None
+        every = [self.contributions(self.input_angles, sign) for sign in SIGNS]
+        if self.section.method == "mc" and not at_worst:
+            limit *= max(float(one.band.max()) for one in self.budgets) / max(self.band)
+        at_worst = at_worst or self.section.method == "worst"
+        names, percent = tightened(every, start, self.correlations, limit, at_worst=at_worst)
+        every_one = len(names) == len(every[0]) > 1
+        which = "all sources" if every_one else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+        return f"tighten {which} to {safely_below(percent)} % of {'their' if len(names) > 1 else 'its'} limits"
 
     @property
     def _where(self) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from gearlink.core.numerics.arrays import Reals
 _COVERED = 3.0  # 99.73 % of a normal error
 _FAR = 40.0  # of the mean in sigmas: the far tail is 0 from some 6 on
 _STEPS = 8
+_FINER = 40
+"""Per cent that two IT grades leave of a tolerance, each 1/1.6 of the next."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +125,43 @@ def budget(
         for one, magnitude, spread, square, mean in zip(contributions, magnitudes, spreads, squares, means, strict=True)
     )
     return Budget(worst, rss, means.sum(axis=0), band, at, rows)
+
+
+def tightened(
+    every: Sequence[Sequence[Contribution]],
+    start: int | None,
+    correlations: Mapping[tuple[str, str], float] | None,
+    limit: float,
+    *,
+    at_worst: bool,
+) -> tuple[list[str], float]:
+    """The fewest sources, those that help most first, whose tighter tolerances keep a limit, and how tight they are.
+
+    Parameters
+        every : contributions as for `budget`, of several budgets that are all to keep it
+        limit : float [mm], above 0 - of the worst case or of the band, which are above it
+    Returns
+        names, percent : float - of their limits: two IT grades finer at most, unless it takes all sources
+    """
+
+    def error(names: Sequence[str], percent: float) -> float:
+        share = percent / 100.0
+        found = [budget([_scaled(one, share, names) for one in each], start, correlations) for each in every]
+        return max(float((one.worst if at_worst else one.band).max()) for one in found)
+
+    names = list(dict.fromkeys(one.source for each in every for one in each))
+    names.sort(key=lambda name: error([name], _FINER))
+    for count in range(1, len(names)):
+        if error(names[:count], _FINER) <= limit:
+            chosen, percents = names[:count], range(_FINER, 100)
+            return chosen, percents[bisect_left(percents, True, key=lambda each: error(chosen, each) > limit) - 1]
+    return names, 100.0 * limit / error(names, 100.0)
+
+
+def _scaled(one: Contribution, share: float, names: Sequence[str]) -> Contribution:
+    if one.source not in names:
+        return one
+    return replace(one, limit=share * one.limit, sigma=share * one.sigma, mean=share * one.mean)
 
 
 def normal_band(mean: Reals, sigma: Reals) -> Reals:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from typing import Any
 
 import factory
@@ -79,6 +80,28 @@ def test_samples_of_the_chain_keep_the_band(law: dict[str, Any]) -> None:
     """A quantile of 2^15 samples of a normal error: some thousandths."""
     sources = {"links.crank": {"plus_minus": 0.02} | law, "links.frame": {"limits": [-0.01, 0.05]}}
     assert register(sources, method="mc").band == pytest.approx(register(sources).band, rel=0.01)
+
+
+@pytest.mark.parametrize("method", ["rss", "worst"])
+@pytest.mark.parametrize("share", [0.9, 0.6, 0.3, 0.01])
+def test_the_advice_keeps_the_budget_where_it_is_followed(share: float, method: str) -> None:
+    """It named the first row alone, also where that row could vanish and the budget not be kept. The file is written
+    anew by what the advice says: it passes, and with a twentieth more it fails again."""
+    limits = {"links.crank": 0.02, "links.frame": 0.03, "centers.crank_idler": 0.02}
+
+    def judged(tighter: Any = (), factor: float = 1.0, limit: float = 1.0) -> Any:
+        sources = {key: {"plus_minus": one * (factor if key in tighter else 1.0)} for key, one in limits.items()}
+        return next(iter(register(sources, tolerance=limit, method=method).check("register-budget")))
+
+    limit = share * judged().value
+    found = judged(limit=limit)
+    which, percent = re.fullmatch(r"tighten (.*) to ([\d.]+) % of (?:its|their) limits", found.fix).groups()  # type: ignore[union-attr]
+    named = set(limits) if which == "all sources" else set(re.split(", | and ", which))
+    assert named <= set(limits)
+    assert judged(named, float(percent) / 100.0, limit).value <= limit
+    assert judged(named, 1.05 * float(percent) / 100.0, limit).status == "fail"
+    fewer = [judged(named - {one}, 0.4, limit).status for one in named]
+    assert share < 0.4 or len(named) == 1 or "fail" in fewer
 
 
 def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
