@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, TypeVar
 
 from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.base.key_results import Key, key_results
-from gearlink.core.base.nomenclature import fixed_name, term
+from gearlink.core.base.nomenclature import TERMS, fixed_name, term
 from gearlink.core.base.remedies.trials import Bench, commands_of, with_remedies
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity, Remedy, Report, Table, TableInParts
@@ -81,7 +81,20 @@ def placed(path: str) -> Any:
         found = _at(design, way)
         return [_at(each, more) for each in found] if of_each and found is not None else found
 
-    return property(value, doc=f"Stands at `{path}`.")
+    found = _Placed(value)
+    found.path = path
+    return found
+
+
+class _Placed(property):
+    """A property that `help` describes in the words of its quantity."""
+
+    path: str
+
+    def __set_name__(self, _owner: type, name: str) -> None:
+        place = f"Stands at `{self.path}`."
+        words = TERMS[name].words if name in TERMS else ""
+        self.__doc__ = f"{words[:1].upper()}{words[1:]}. {place}" if words else place
 
 
 def _way(path: str) -> tuple[str | int, ...]:
@@ -108,18 +121,22 @@ class UnknownName(GearlinkError):
         self.what, self.name, self.known = what, name, tuple(known)
 
     def __str__(self) -> str:
-        return f"{self.args[0]}; {self.remedy}" if isinstance(self.name, str) else str(self.args[0])
+        where = "`quantity_names()` lists"
+        return f"{self.args[0]}; {self._names(where)}" if isinstance(self.name, str) else str(self.args[0])
 
     @property
     def remedy(self) -> str:
-        """The nearest names; where none is near, those that there are."""
+        """The nearest names; where none is near, those that there are, for the command line."""
+        return self._names("--all shows")
+
+    def _names(self, where: str) -> str:
         from gearlink.core.base.nearest import near_quantities
 
         if near := near_quantities(self.name, self.known):
             return f"nearest: {', '.join(near)}"
         plain = [name for name in self.known if "." not in name]  # those of each mesh are many, and the same again
         shown = _LISTED if self.what == "quantity" else len(plain)
-        more = f", and {len(plain) - shown} more, which --all shows" if len(plain) > shown else ""
+        more = f", and {len(plain) - shown} more, which {where}" if len(plain) > shown else ""
         meshes = ", and those of a mesh as MESH.NAME" if plain != [*self.known] else ""
         return f"known: {', '.join(plain[:shown])}{more}{meshes}"
 

@@ -17,6 +17,7 @@ from sweeps import examples
 
 from gearlink.core.base.design import Design, Outline, UnknownName, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Report, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep, kept, observed, step
 from gearlink.core.parts.gears.codes import CONTACT_RATIO
@@ -130,6 +131,12 @@ def test_unknown_quantity_names_the_known_ones(toy, name):
     assert refusal.value.known == toy.quantity_names()
 
 
+def test_a_program_is_sent_to_the_list_of_names_and_a_command_line_to_its_option():
+    refusal = UnknownName("quantity", "zzz", [f"q{number}" for number in range(15)])
+    assert str(refusal).endswith("and 3 more, which `quantity_names()` lists")
+    assert refusal.remedy.endswith("and 3 more, which --all shows")
+
+
 def test_unknown_table_names_the_known_ones(toy):
     with pytest.raises(UnknownName, match="table") as refusal:
         toy.table("position")
@@ -178,7 +185,8 @@ def test_a_quantity_may_stand_on_a_part():
     whole = Whole(Spec())
     assert (whole.max_stroke, whole.quantity("max_stroke").value) == (7.5, 7.5)
     assert whole.back_step_angle is None
-    assert Whole.max_stroke.__doc__ == "Stands at `part.stroke.value`."
+    assert Whole.max_stroke.__doc__ == f"L{term('max_stroke').words[1:]}. Stands at `part.stroke.value`."
+    assert Whole.back_step_angle.__doc__ == "Back-step of the output. Stands at `missing.angle`."
 
 
 def test_every_quantity_is_an_attribute_and_listed():

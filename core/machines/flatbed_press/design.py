@@ -783,7 +783,7 @@ class PressCams(DiscCams):
         if self.section.base_radius is not None:
             return self.section.base_radius
         if self.spec.size is None:
-            text = "give cam.base_radius, or size: {pressure_angle: 25} to have it chosen"
+            text = "give cam.base_radius, or size: {pressure_angle: 25} at the level of cam to have it chosen"
             raise MissingSection(text, key="cam.base_radius")
         return self.base_radius_for(math.radians(self.spec.size.pressure_angle))
 

@@ -676,7 +676,9 @@ class GripperCams(DiscCams):
         if self.section.center is not None:
             return complex(*self.section.center)
         if self.spec.size is None:
-            raise MissingSection("give cam.center, or size: {pressure_angle: 25} to have it chosen", key="size")
+            raise MissingSection(
+                "give cam.center, or size: {pressure_angle: 25} at the level of cam to have it chosen", key="size"
+            )
         return self.center_for(self.spec.size.pressure_angle)
 
     def center_for(self, degrees: float, *, refined: bool = True) -> complex:
