@@ -294,7 +294,7 @@ def _fix(loaded: LoadedFile, remedy: Remedy) -> tuple[Fix, ...]:
     return tuple(found) if len(found) == len(remedy) else ()
 
 
-def _written(value: float | str) -> str:
+def _written(value: float | str | tuple[float, ...]) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 

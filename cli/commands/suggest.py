@@ -181,4 +181,6 @@ def overrides(changes: Sequence[Change]) -> str:
 def _shown(value: Any) -> str:
     if isinstance(value, (int, float)):
         return f"{value:.12g}"
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(_shown, value))}]"
     return "not given" if value is None else str(value)

@@ -25,7 +25,7 @@ Value = float | int | str | bool | list[float] | list[int] | list[str] | list[fl
 Status = Literal["pass", "warn", "fail"]
 Side = Literal[">=", "<=", ""]
 """How a value that passes stands to its limit; no word where the limit is what was asked for, or decides not alone."""
-Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]
+Remedy: TypeAlias = tuple[tuple[str, float | str | tuple[float, ...] | None], ...]
 """Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""
 _BLOCK = 4096
 
@@ -416,7 +416,9 @@ def remedy_words(remedy: Remedy) -> str:
     return " and ".join((*verbs, *(f"remove {key}" for key, value in remedy if value is None)))
 
 
-def _shown(value: float | str) -> str:
+def _shown(value: float | str | tuple[float, ...]) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_shown, value))}]"
     return value if isinstance(value, str) else f"{value:.12g}"
 
 

@@ -161,7 +161,7 @@ def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
         if value is None:
             _leave_out(data, path)
         else:
-            put(data, path, value)
+            put(data, path, list(value) if isinstance(value, tuple) else value)
     try:
         return type(spec).model_validate(data)
     except ValueError:

@@ -77,6 +77,9 @@ _INSIDE = (
 _LINES = dict.fromkeys(_INSIDE, "") | {"sliding": "equal sliding", "bending": "equal root stress"}
 """For each check that a share of the shift sum may repair, the line to go to; none: within all limits."""
 _MOST_SHARES = 8
+_OF_TIPS = ("involute-interference", "fillet-interference")
+_SHORTER = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2)
+"""Modules by which tips are tried shorter than contact alone demands."""
 _WAYS = _ways(up("teeth[0]", step=1), up("teeth[1]", step=1))
 _WAYS_WITH_RING = _ways(down("teeth[1]", step=1), *either("teeth[0]", step=1))
 
@@ -127,8 +130,12 @@ class GearPairDesign(GearQuantities, Design):
         plain = face is not None and face.misalignment is None and face.modification in (None, "none")
         if plain and check in _CARRIES:
             yield (("rating.face.modification", "crowning"),)
+        if self.spec.rack:
+            return
+        if check in _OF_TIPS and self.gear_pair.internal and self.spec.tip_diameter is None:
+            yield from self._shorter_tips()
         line = _LINES.get(check)
-        if line is None or self.spec.rack:
+        if line is None:
             return
         shift = self.spec.profile_shift
         for first in self.contour.shares(line)[:_MOST_SHARES]:
@@ -136,6 +143,20 @@ class GearPairDesign(GearQuantities, Design):
                 yield (("shift_split", first),)
             else:
                 yield ("profile_shift[0]", first), ("profile_shift[1]", math.fsum((*shift, -first)))
+
+    def _shorter_tips(self) -> Iterator[Remedy]:
+        """Tips that clear the mate's fillet on the path of contact, and further ones for what their corners cut."""
+        tips = [self.data.path.shortened(gear) for gear in (0, 1)]
+        if tips == [None, None]:
+            tips = list(self.gear_pair.tip_alteration)
+        for more in _SHORTER:
+            whole = zip(tips, self.gear_pair.tip_alteration, strict=True)
+            yield (
+                (
+                    "tip_shortening",
+                    tuple(own if k is None else round(math.floor(100.0 * k) / 100.0 - more, 2) for k, own in whole),
+                ),
+            )
 
     def as_found(self) -> Iterator[Found]:
         """Shifts and tips that the nominal centre distance asks for: gears are cut once, wherever their axes lie."""

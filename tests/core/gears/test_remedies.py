@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from gearlink.core.base.report import Check
 from gearlink.core.base.spec import GearLimits
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.parts.gears.checks import gear_check
+from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
 
 SHIFTED = {"kind": "gear-pair", "module": 4, "teeth": [12, 40], "profile_shift": [0.9, -0.2]}
@@ -155,3 +157,37 @@ def test_an_uneven_load_is_mended_by_crowning_and_no_width_is_more_than_doubled(
         fixes[power] = [each.remedy for each in checks if each.code == "GL210" and each.status == "fail"]
     assert fixes[5.0] == [(("rating.face.modification", "crowning"),)]
     assert fixes[12.0] == [(("module", 5.0),)]
+
+
+@pytest.mark.parametrize(
+    ("teeth", "width"), [([25, -80], {"center_distance": 110.32}), ([20, -60], {}), ([18, -90], {})]
+)
+def test_tips_of_a_standard_ring_clear_the_fillet_and_keep_ratio_and_tool(teeth: list[int], width: Any) -> None:
+    """Both findings name it; it was other teeth, or a tool of 26 deg."""
+    keys = {"teeth": teeth, "profile_shift": None if width else [0, 0], **width}
+    checks = failing(**keys)
+    assert {check.name for check in checks} <= {"involute-interference", "fillet-interference"}
+    (remedy,) = {check.remedy for check in checks}
+    ((key, tips),) = remedy
+    assert (key, tips[0]) == ("tip_shortening", 0.0)
+    assert checks[0].fix == f"set tip_shortening to [0, {tips[1]:g}]"
+    assert failing(**keys, tip_shortening=list(tips)) == []
+    assert failing(**keys, tip_shortening=[0.0, tips[1] / 2.0]) != []
+
+
+@pytest.mark.parametrize("teeth", [(20, -60), (18, -90), (200, 14), (14, 200)])
+def test_shortened_tips_begin_contact_where_the_flank_of_the_mate_ends(teeth: tuple[int, int]) -> None:
+    """The other way round: the pair with these tips, whose contact reaches the form circle. A few ulp of the radii,
+    divided by the small radius of curvature there: 1e-12."""
+    pair = GearPair.from_shift(2.0, teeth)
+    path = PathOfContact(pair)
+    tips = [path.shortened(gear) for gear in (0, 1)]
+    assert any(k is not None for k in tips)
+    for gear, k in enumerate(tips):
+        if k is None:
+            form, used = pair.form_radius[1 - gear], path.used_root_radius[1 - gear]
+            assert form is None or used >= form
+            continue
+        both = tuple(k if each == gear else own for each, own in enumerate(pair.tip_alteration))
+        found = PathOfContact(replace(pair, tip=both)).used_root_radius[1 - gear]  # type: ignore[arg-type]
+        assert found == pytest.approx(pair.form_radius[1 - gear], rel=1e-12)

@@ -49,6 +49,19 @@ class PathOfContact:
         r = self.pair.base_radius
         return (r[0] + r[1]) * self.pair.fn.tan(self.pair.working_pressure_angle)
 
+    def shortened(self, gear: int) -> float | None:
+        """k of a gear [module] with which contact begins where its mate's flank ends towards the root.
+
+        None where it begins farther out already, or that end is not known.
+        """
+        pair, mate = self.pair, 1 - gear
+        form, base, tip = pair.form_radius[mate], pair.base_radius, pair.tip_radius[gear]
+        if form is None:
+            return None
+        own = self.line - math.copysign(math.sqrt(form**2 - base[mate] ** 2), form)
+        k = pair.tip_alteration[gear] + (math.copysign(math.hypot(base[gear], own), tip) - tip) / pair.module
+        return k if k < pair.tip_alteration[gear] else None
+
     @property
     def contact_ratio(self) -> float:
         """eps_alpha."""
