@@ -652,7 +652,8 @@ def rows_of(source: Source, columns: tuple[int, int] | None = None) -> list[list
             at = source.line_start(number)
             raise DesignFileError([source.report("GL182", f"more than {_MOST_ROWS} rows", at, help="omit rows")])
     if not rows:
-        raise DesignFileError([source.report("GL182", "no row of numbers", 0, help="give two numbers a row")])
+        fix = "give two numbers a row, with a comma, a semicolon or a tab between them"
+        raise DesignFileError([source.report("GL182", "no row of numbers", 0, help=fix)])
     return rows
 
 

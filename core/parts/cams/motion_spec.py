@@ -137,9 +137,15 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
 
 
 def _require_table(rows: list[list[float]]) -> None:
-    if any(after[0] <= before[0] for before, after in pairwise(rows)):
-        raise refused("the cam angles of a table must ascend", "motion")
-    if rows[0][0] != 0.0 or rows[-1][0] != 360.0:
-        raise refused("a table runs from cam angle 0 to 360", "motion")
-    if rows[0][1] != rows[-1][1]:
-        raise refused("a table ends with the lift that it starts with", "motion")
+    for (before, _), (after, _) in pairwise(rows):
+        if after <= before:
+            words = f"{unlike(after, before)} deg follows {unlike(before, after)} deg"
+            raise refused(f"the cam angles of a table must ascend: {words}\nsort its rows, each angle once", "motion")
+    (start, first), (end, last) = rows[0], rows[-1]
+    if start != 0.0 or end != 360.0:
+        words = f"a table runs from cam angle 0 to 360 deg, not from {unlike(start, 0.0)} to {unlike(end, 360.0)} deg"
+        fix = f"add the row 360, {first:.12g}" if start == 0.0 and end < 360.0 else "give it the rows 0 and 360"
+        raise refused(f"{words}\n{fix}", "motion")
+    if first != last:
+        words = f"a table ends with the lift that it starts with: {unlike(first, last)}, not {unlike(last, first)}"
+        raise refused(f"{words}\nset the lift at 360 to {first:.12g}", "motion")

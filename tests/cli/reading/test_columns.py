@@ -45,6 +45,33 @@ def test_a_bad_cell_is_told_at_its_place(text: str, line: int, column: int, word
     assert words in found.message
 
 
+def test_blanks_are_no_delimiter() -> None:
+    """The help asked for two numbers a row, which each row has."""
+    with pytest.raises(DesignFileError) as refused:
+        rows_of(Source("f.csv", "0 0\n1 1\n"))
+    assert "a comma, a semicolon or a tab" in refused.value.diagnostics[0].help
+
+
+@pytest.mark.parametrize(
+    ("rows", "words", "fix"),
+    [
+        ("0,0\n90,10\n80,12\n360,0\n", "80 deg follows 90 deg", "sort its rows, each angle once"),
+        ("0,1\n90,10\n180,5\n355,1.5\n", "not from 0 to 355 deg", "add the row 360, 1"),
+        ("5,1\n90,10\n180,5\n360,1\n", "not from 5 to 360 deg", "give it the rows 0 and 360"),
+        ("0,0\n90,10\n180,5\n360,0.004\n", "starts with: 0, not 0.004", "set the lift at 360 to 0"),
+    ],
+)
+def test_measured_points_that_close_no_turn_are_told_which(tmp_path: Path, rows: str, words: str, fix: str) -> None:
+    (tmp_path / "lift.csv").write_text(rows, encoding="utf-8")
+    path = tmp_path / "cam.yaml"
+    head = "kind: disc-cam\nfollower: {type: translating-roller, roller_radius: 9}\ncam: {prime_radius: 50}\n"
+    path.write_text(head + "motion: {file: lift.csv}\n", encoding="utf-8")
+    with pytest.raises(DesignFileError) as refused:
+        validate(load(str(path)), KINDS["disc-cam"].spec_model())
+    (found,) = refused.value.diagnostics
+    assert (words in found.message, found.help) == (True, fix)
+
+
 def design_file(folder: Path, law: str) -> Path:
     path = folder / "law.yaml"
     path.write_text(f"kind: motion-law\nname: measured\nlaw: {law}\n", encoding="utf-8")
