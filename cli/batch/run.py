@@ -26,7 +26,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions, Unchanged
-from gearlink.cli.batch.summary import Fix, JsonLines, Outcome, write_batch
+from gearlink.cli.batch.summary import Fix, JsonLines, Outcome, counts, write_batch
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, read_plain_file, safe_stem, stem_of, write_atomically
@@ -171,6 +171,8 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     results.sort(key=lambda outcome: outcome.file)
     if lines is None:
         write_batch(results, options, sys.stdout)
+    if options.format is BatchFormat.GITHUB and not options.design.quiet:
+        print(counts(results), file=sys.stderr)  # else the log of a job that passes is empty
     if interrupted:
         print(f"interrupted after {len({r.file for r in results})} of {amount(len(files), 'file')}", file=sys.stderr)
         return ExitCode.INTERRUPTED

@@ -174,15 +174,16 @@ def _csv(results: Sequence[Outcome]) -> str:
     return text.getvalue()
 
 
-def _counts(results: Sequence[Outcome]) -> str:
-    counts = ", ".join(f"{n} {verdict}" for verdict, n in summary(results).items() if n) or "nothing done"
-    return f"{amount(len(results), 'result')}: {counts}"
+def counts(results: Sequence[Outcome]) -> str:
+    """How many results there are, and of each sort."""
+    sorts = ", ".join(f"{n} {verdict}" for verdict, n in summary(results).items() if n) or "nothing done"
+    return f"{amount(len(results), 'result')}: {sorts}"
 
 
 def _markdown(results: Sequence[Outcome]) -> str:
     from gearlink.cli.render.markdown_report import markdown_table
 
-    return markdown_table(_HEADS, _rows(results)) + f"\n\n{_counts(results)}\n"
+    return markdown_table(_HEADS, _rows(results)) + f"\n\n{counts(results)}\n"
 
 
 def _junit(results: Sequence[Outcome]) -> str:
@@ -223,7 +224,7 @@ def _show(results: Sequence[Outcome], options: BatchOptions) -> None:
         for finding in outcome.findings:
             console.print(Text(visible_lines(finding.split("\n"))))
     style = max((outcome.verdict for outcome in results), key=list(_STYLE).index, default="pass")
-    console.print(Text(f"\n{_counts(results)}", style=_STYLE[style]))
+    console.print(Text(f"\n{counts(results)}", style=_STYLE[style]))
 
 
 def _show_table(results: Sequence[Outcome], console: Console) -> None:

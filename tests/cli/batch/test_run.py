@@ -212,7 +212,10 @@ class TestFormats:
         assert (folder / "fail.yml").read_text().splitlines()[line - 1].startswith("links:")
 
     def test_github(self, gearlink: Any, folder: Path) -> None:
-        lines = gearlink("batch", folder, "--format", "github").out.splitlines()
+        ended = gearlink("batch", folder, "--format", "github")
+        lines = ended.out.splitlines()
+        assert re.search(r"^\d+ results: \d+ pass, .*fail", ended.err, re.MULTILINE)
+        assert gearlink("batch", folder, "--format", "github", "--quiet").err == ""
         pattern = re.compile(r"::(error|warning) file=[^,]+,line=\d+,col=\d+,title=GL\d{3} [\w-]+::.+")
         assert lines
         assert all(pattern.fullmatch(line) for line in lines)
