@@ -130,7 +130,7 @@ def figure(design: Design, command: str | None = None) -> Figure:
 
     wanted = _origin(design)[1] if command is None else command
     if not (isinstance(wanted, str) and wanted in design.outlines):
-        raise UnknownName("command", wanted, tuple(design.outlines))
+        raise UnknownName("command", wanted, tuple(design.outlines), design.kind)
     with _one_at_a_time:
         return draw(wanted, design)
 

@@ -136,6 +136,11 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     if not isinstance(kind, str):
         wrong = loaded.report("GL107", "kind must be one word of text", ("kind",), help=known)
         raise DesignFileError([*loaded.problems, wrong])
+    if kind == "study":
+        wrong = loaded.report(
+            "GL109", "a study is no design", ("kind",), help="name a design; `gearlink explore` runs studies"
+        )
+        raise DesignFileError([*loaded.problems, wrong])
     from difflib import get_close_matches
 
     from gearlink.cli.glossary import kinds_named

@@ -115,14 +115,23 @@ _LISTED = 12
 class UnknownName(GearlinkError):
     """A quantity, table or command was asked for that this design does not have."""
 
-    def __init__(self, what: str, name: str, known: Sequence[str]) -> None:
+    def __init__(self, what: str, name: str, known: Sequence[str], kind: str = "") -> None:
         shown = f"named {named(name)}" if isinstance(name, str) else f"by {type(name).__name__}: names are text"
         super().__init__(f"this design has no {what} {shown}")
-        self.what, self.name, self.known = what, name, tuple(known)
+        self.what, self.name, self.known, self.kind = what, name, tuple(known), kind
 
     def __str__(self) -> str:
         where = "`quantity_names()` lists"
+        if self.what == "command" and self._is_elsewhere:
+            return f"{self.args[0]}; give `load`, or `design`, command={self.name!r}"
         return f"{self.args[0]}; {self._names(where)}" if isinstance(self.name, str) else str(self.args[0])
+
+    @property
+    def _is_elsewhere(self) -> bool:
+        """Whether another class of the kind has the command."""
+        from gearlink.core.base.kinds import KINDS
+
+        return isinstance(self.name, str) and self.kind in KINDS and self.name in KINDS[self.kind].commands
 
     @property
     def remedy(self) -> str:
@@ -503,7 +512,7 @@ class Design:
         quantities, tables = [fixed_name(name, known) for name in _several(quantities)], _several(tables)
         self._require_names(quantities, tables)
         if not (quantities or only or (isinstance(command, str) and command in self.outlines)):
-            raise UnknownName("command", command, tuple(self.outlines))
+            raise UnknownName("command", command, tuple(self.outlines), self.kind)
         outline = Outline(tuple(quantities)) if quantities or only else self._with_tables(self.outline(command), tables)
         own = () if findings_only else outline.tables
         beside = self.key_tables if key_tables and own and outline.quantities else own

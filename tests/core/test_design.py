@@ -137,6 +137,14 @@ def test_a_program_is_sent_to_the_list_of_names_and_a_command_line_to_its_option
     assert refusal.remedy.endswith("and 3 more, which --all shows")
 
 
+def test_a_command_of_another_class_of_the_kind_is_told_how_to_open_it():
+    """The section `loads` is in the file, and the command was said not to exist."""
+    with pytest.raises(UnknownName, match=r"'loads'; give `load`, or `design`, command='loads'$"):
+        design("loaded_feed", command="analyze").report("loads")
+    with pytest.raises(UnknownName, match="; known: analyze"):
+        design("loaded_feed", command="analyze").report("press")
+
+
 def test_unknown_table_names_the_known_ones(toy):
     with pytest.raises(UnknownName, match="table") as refusal:
         toy.table("position")

@@ -215,6 +215,7 @@ def test_kind() -> None:
     found = kind_error("name: x\nkind: gear_pear\n")
     assert (found.code, found.line, found.column, found.key) == ("GL109", 2, 1, "kind")
     assert found.help.startswith("did you mean gear-pair? the kinds are three-gear-four-bar, ")
+    assert kind_error("kind: study").help == "name a design; `gearlink explore` runs studies"
     with pytest.raises(DesignFileError, match=r"did you mean gear-pair\?"):
         read_kind(parse(b"kind: gear", "f"), ("gear-pair", "cam-gear"))
     found = kind_error("# a\nname: x\n")
