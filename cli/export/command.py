@@ -146,15 +146,16 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
     """The parts that a format takes: of all parts, those that are bodies become solids."""
     if form is not FileFormat.STEP:
         return contours[asked.curve]
-    made = [contour for contour in contours[CurveForm.SPLINE] if not _is_path(contour)]
+    made = [contour for contour in contours[CurveForm.SPLINE] if _is_body(contour)]
     if not made:
-        raise GearlinkError("a path is no solid\ngive --as dxf, svg or csv")
+        words = "a circle of pins" if any(contour.part.circles for contour in contours[CurveForm.SPLINE]) else "a path"
+        raise GearlinkError(f"{words} is no solid\ngive --as dxf, svg or csv")
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
 
 
-def _is_path(contour: Contour) -> bool:
-    return any(line.layer == "PATH" for line in contour.lines)
+def _is_body(contour: Contour) -> bool:
+    return any(line.layer == "PROFILE" for line in contour.lines)
 
 
 def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]) -> tuple[str, ...]:
@@ -251,6 +252,7 @@ _HEADS = {
     "PROFILE": ("x [mm]", "y [mm]"),
     "PITCH_CURVE": ("pitch_x [mm]", "pitch_y [mm]"),
     "PATH": ("x [mm]", "y [mm]"),
+    "PIN_CIRCLE": ("x [mm]", "y [mm]"),
 }
 _INPUTS = ("cam_angle", "input_angle", "crank_angle", "carrier_angle", "theta")
 _LEADING = ("k", *(f"{name} [deg]" for name in _INPUTS), "input_position [mm]")

@@ -308,19 +308,6 @@ def rows_of(pieces: tuple[Sampled, ...]) -> Iterator[tuple[Sampled, slice]]:
         first = begin
 
 
-def extents(contour: Contour) -> tuple[float, float, float, float]:
-    """Left, bottom, right, top of all curves, circles and the cross on the axis [mm]."""
-    boxes = [(line.nodes.real, line.nodes.imag) for line in contour.lines]
-    for circle in contour.part.circles:
-        sides = np.array([-circle.radius, circle.radius])
-        boxes.append((circle.center.real + sides, circle.center.imag + sides))
-    arm = 0.16 * max(float(abs(line.nodes).max()) for line in contour.lines)
-    boxes.append((np.array([-arm, arm]), np.array([-arm, arm])))
-    low = [min(float(box[axis].min()) for box in boxes) for axis in (0, 1)]
-    high = [max(float(box[axis].max()) for box in boxes) for axis in (0, 1)]
-    return low[0], low[1], high[0], high[1]
-
-
 def design_hash(spec: Any) -> str:
     """sha256 of the design's canonical form: every key with its value, defaults included, in JSON, sorted."""
     plain = spec.model_dump(mode="json", by_alias=True)

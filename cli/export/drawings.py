@@ -16,9 +16,9 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour, Line, describe, extents
+from gearlink.cli.export.contour import Contour, Line, describe
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.export.sampling import Points
+from gearlink.cli.export.sampling import Points, Reals
 from gearlink.cli.quiet import without_notes
 from gearlink.core.base.errors import GearlinkError
 
@@ -66,7 +66,7 @@ def as_dxf(contour: Contour, spec: Any) -> bytes:
             space.add_circle(center, circle.radius, dxfattribs={"layer": circle.layer})
         _add_center(space, _reach(contour))
         _add_text(space, said, contour)
-        left, bottom, right, top = extents(contour)
+        left, bottom, right, top = _extents(contour)
         document.header["$EXTMIN"], document.header["$EXTMAX"] = (left, bottom, 0.0), (right, top, 0.0)
         space.dxf_layout.dxf.extmin, space.dxf_layout.dxf.extmax = (left, bottom, 0.0), (right, top, 0.0)
         # Registered when written, they would stand in the order of a set, which changes from run to run.
@@ -270,6 +270,38 @@ def bezier(line: Line) -> Points:
     return points
 
 
+def _extents(contour: Contour) -> tuple[float, float, float, float]:
+    """Left, bottom, right, top of all curves, circles and the cross on the axis [mm]."""
+    spline = contour.form is CurveForm.SPLINE
+    boxes = [_box(bezier(line)) if spline else (line.nodes.real, line.nodes.imag) for line in contour.lines]
+    for circle in contour.part.circles:
+        sides = np.array([-circle.radius, circle.radius])
+        boxes.append((circle.center.real + sides, circle.center.imag + sides))
+    arm = 0.16 * _reach(contour)
+    boxes.append((np.array([-arm, arm]), np.array([-arm, arm])))
+    low = [min(float(box[axis].min()) for box in boxes) for axis in (0, 1)]
+    high = [max(float(box[axis].max()) for box in boxes) for axis in (0, 1)]
+    return low[0], low[1], high[0], high[1]
+
+
+def _box(chain: Points) -> tuple[Reals, Reals]:
+    """x and y of the ends of a chain of Bezier cubics, and where they turn back between these."""
+    x, y = (np.append(row[::3], _turns(row)) for row in (chain.real, chain.imag))
+    return x, y
+
+
+def _turns(row: Reals) -> Reals:
+    """One coordinate of a chain of Bezier cubics where its derivative vanishes inside them."""
+    start, first, second, end = row[:-1:3], row[1::3], row[2::3], row[3::3]
+    square, linear, constant = end - start + 3.0 * (first - second), 2.0 * (start - 2.0 * first + second), first - start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = -0.5 * (linear + np.copysign(np.sqrt(linear**2 - 4.0 * square * constant), linear))
+        t = np.stack([half / square, constant / half])
+        value = (1.0 - t) ** 2 * ((1.0 - t) * start + 3.0 * t * first) + t**2 * (3.0 * (1.0 - t) * second + t * end)
+        found: Reals = value[(t > 0.0) & (t < 1.0)]
+    return found
+
+
 def _complex(rows: Any) -> Points:
     values: Points = rows[:, 0] + 1j * rows[:, 1]
     return values
@@ -286,7 +318,7 @@ def _number(value: float, digits: int) -> str:
 
 def _frame(contour: Contour) -> tuple[float, float, float, float]:
     """Left, bottom, right, top of all curves, circles and the axis with a margin, in whole millimetres."""
-    left, bottom, right, top = extents(contour)
+    left, bottom, right, top = _extents(contour)
     return math.floor(left) - 2.0, math.floor(bottom) - 2.0, math.ceil(right) + 2.0, math.ceil(top) + 2.0
 
 

@@ -959,20 +959,27 @@ def cycloidal_disc(design: Any) -> Part:
 
 
 def cycloidal_ring(design: Any) -> Part:
-    """The circle of the ring pins, with the pins."""
+    """The circle of the ring pins, a vertex at the centre of each, with the pins."""
     disc = design.disc
-    pins = (Circle("PINS", disc.pin, cmath.rect(disc.circle, _TURN * k / disc.pins)) for k in range(disc.pins))
+    pitch = _TURN / disc.pins
+    pins = (Circle("PINS", disc.pin, cmath.rect(disc.circle, pitch * k)) for k in range(disc.pins))
 
     def points(angle: Reals) -> Points:
         return np.stack([disc.circle * np.exp(1j * angle)])
 
+    def extra(angle: Reals) -> Reals:
+        return np.stack([np.degrees(angle)])
+
     return Part(
         name="ring",
         title="ring with pins",
-        stretches=(Stretch(("PIN_CIRCLE",), points, 0.0, _TURN),),
+        stretches=tuple(
+            Stretch(("PIN_CIRCLE",), points, k * pitch, (k + 1) * pitch, extra=extra) for k in range(disc.pins)
+        ),
         closed=True,
         circles=tuple(pins),
         notes=(f"{disc.pins} pins of radius {disc.pin:.9g} mm, the first on the x axis",),
+        extra_columns=("angle [deg]",),
         lines=partial(sizes.ring_lines, disc),
     )
 

@@ -12,14 +12,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from factory import design
+from factory import design, worked
 from oracles.sections import section_area
 from scipy.interpolate import BSpline
 
 from gearlink.cli.export import parts, step
+from gearlink.cli.export.command import _drawn
 from gearlink.cli.export.contour import Contour, contour
-from gearlink.cli.export.options import CurveForm
+from gearlink.cli.export.options import CurveForm, Export, FileFormat
 from gearlink.cli.export.rexs import as_rexs
+from gearlink.cli.options import Options
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.parts.gears.tooth.involute import involute
 
@@ -186,8 +188,6 @@ def test_section_area_is_that_of_a_fine_polygon() -> None:
 
 
 def test_a_ring_lies_between_its_teeth_and_its_rim(designs: Path) -> None:
-    from factory import worked
-
     made = design(worked("two_gear_ring"))
     ring = _spline("gear5", made)
     mesh = made.mesh
@@ -238,8 +238,6 @@ def test_what_is_no_solid_is_refused(
 )
 def test_a_solid_that_is_read_again_has_the_volume_of_its_section(given: Any, name: str, tmp_path: Path) -> None:
     pytest.importorskip("OCP", reason=NO_STEP)
-    from factory import worked
-
     made = design(worked(given) if isinstance(given, str) else given)
     section = _spline(name, made)
     shape = _read_again(section, made.spec, 12.5, tmp_path)
@@ -389,9 +387,59 @@ def test_dxf_has_extents_and_circles_of_tip_and_root(gearlink: Any, designs: Pat
         assert drawn.header[corner][:2] == pytest.approx((sign * circles["RIM"],) * 2, rel=1e-12)
 
 
-def test_every_kind_with_gears_has_parts(designs: Path) -> None:
-    from factory import worked
+@pytest.mark.parametrize("tolerance", [0.001, pytest.param(1.0, marks=pytest.mark.slow)])
+def test_what_is_drawn_lies_within_extents_and_frame_of_a_spline(
+    gearlink: Any, designs: Path, tmp_path: Path, tolerance: float
+) -> None:
+    """Between its nodes a spline reaches farther than at them: here the curve itself, at 64 places of each span."""
+    ezdxf = pytest.importorskip("ezdxf")
+    asked = ("--as", "dxf", "--as", "svg", "--curve", "spline", "--part", "main_cam", "--tolerance", tolerance)
+    assert gearlink("export", designs / "lift_cam.yaml", *asked, "--out", tmp_path).status == 0
+    drawn = ezdxf.readfile(tmp_path / "lift-cam-main_cam.dxf")
+    places = []
+    for spline in drawn.modelspace().query("SPLINE"):
+        knots = np.unique(spline.knots)
+        at = np.interp(np.linspace(0.0, knots.size - 1.0, 64 * (knots.size - 1) + 1), np.arange(knots.size), knots)
+        places.append(BSpline(spline.knots, np.array(spline.control_points)[:, :2], 3)(at))
+    low, high = (side(np.concatenate(places), axis=0) for side in (np.min, np.max))
+    # a span bends by less than a radian, so that a place between two of 64 is off by 1/8 (1/64)^2 of its length at most
+    assert drawn.header["$EXTMIN"][:2] == pytest.approx(low, abs=1e-3)
+    assert drawn.header["$EXTMAX"][:2] == pytest.approx(high, abs=1e-3)
+    assert (drawn.header["$EXTMIN"][:2] <= low + 1e-9).all()
+    assert (drawn.header["$EXTMAX"][:2] >= high - 1e-9).all()
+    left, top, width, height = map(
+        float, ET.parse(tmp_path / "lift-cam-main_cam.svg").getroot().attrib["viewBox"].split()
+    )
+    assert left + 2.0 <= low[0]
+    assert left + width - 2.0 >= high[0]
+    assert -top - height + 2.0 <= low[1]
+    assert -top - 2.0 >= high[1]
 
+
+def test_pins_of_a_reducer_are_no_solid_and_have_their_places_in_a_table(
+    gearlink: Any, designs: Path, tmp_path: Path
+) -> None:
+    file = designs / "cycloidal_reducer.yaml"
+    refused = gearlink("export", file, "--part", "ring", "--as", "step", "--width", 12, "--out", tmp_path)
+    assert refused.status == 2
+    assert "a circle of pins is no solid" in refused.err
+    made = [
+        contour(make(), 0.1, CurveForm.SPLINE) for make in parts.makers(design(worked("cycloidal_reducer"))).values()
+    ]
+    asked = Export((FileFormat.STEP,), (), 0.1, CurveForm.SPLINE, Options())
+    solids = _drawn(FileFormat.STEP, {CurveForm.SPLINE: made}, asked)
+    assert [each.part.name for each in solids] == ["disc"]
+    assert gearlink("export", file, "--part", "ring", "--as", "csv", "--out", tmp_path).status == 0
+    text = (tmp_path / "cycloidal-reducer-ring.csv").read_text(encoding="utf-8").splitlines()
+    head, *rows = [line.split(",") for line in text if not line.startswith("#")]
+    assert head == ["x [mm]", "y [mm]", "angle [deg]"]
+    places = {round(float(row[2]), 9): complex(float(row[0]), float(row[1])) for row in rows}
+    for k in range(12):
+        turn = math.radians(30.0 * k)
+        assert places[30.0 * k] == pytest.approx(60.0 * complex(math.cos(turn), math.sin(turn)), abs=1e-12)
+
+
+def test_every_kind_with_gears_has_parts(designs: Path) -> None:
     wanted = {
         "hypocycloid_slider": ["planet", "ring"],
         "five_bar_path": ["input_gear", "output_gear", "PATH-M"],
