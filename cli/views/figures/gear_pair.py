@@ -108,7 +108,7 @@ def _drawing(design: GearPairDesign) -> Rows:
         return ["", "", "unit", "", ""], []
     columns: Any = table.data
     rows = [
-        [item, symbol, unit.replace("um", "µm"), gear_text(one), gear_text(other)]
+        [item, symbol, unit.replace("um", "µm"), gear_text(one, unit), gear_text(other, unit)]
         for item, symbol, one, other, unit in zip(*columns, strict=True)
     ]
     return ["", "", "unit", "gear 1", "gear 2"], rows

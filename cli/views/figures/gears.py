@@ -203,11 +203,13 @@ def _text(quantity: Quantity, name: str, gear: int | None = None) -> str:
     return style.number(math.degrees(value) if term(name).unit == "deg" else value)
 
 
-def gear_text(value: Any) -> str:
-    """A cell of a gear table: numbers to six digits, minus signs, nothing for what a gear does not have."""
+def gear_text(value: Any, unit: str = "") -> str:
+    """A cell of a gear table: six digits, lengths at least to a micrometre, nothing for what a gear does not have."""
     if value is None:
         return ""
-    return str(value) if isinstance(value, str) else style.number(value)
+    if isinstance(value, str):
+        return value
+    return style.number(value, max(6, len(f"{abs(value):.0f}") + 3) if unit == "mm" else 6)
 
 
 def _set_symbol(axes: Axes, place: tuple[float, float], symbol: str, size: float) -> None:

@@ -113,6 +113,28 @@ def test_a_gear_has_its_outline_and_its_table(
         assert cell(figure, f"measure over balls, {limit}") == f"{cut.over_balls(ball, allowance):.6g}"
 
 
+def test_lengths_of_a_large_gear_are_told_to_a_micrometre() -> None:
+    """Six digits are a hundredth from 1 m on, coarser than what is allowed to the measure over balls."""
+    keys = {"module": 8.0, "teeth": [21, 190], "profile_shift": [0.1, 0.2], "helix_angle": 13.0, "face_width": 90.0}
+    figure = part_drawing.drawn(whole("gear_pair", **keys))["gear2"]()
+    large = Cut(8.0, 190, math.radians(13.0), 0.2)
+    ball = float(cell(figure, "ball diameter"))
+    for limit, allowance in (("maximum", -0.24), ("minimum", -0.34)):  # 25cd above a diameter of 1000 mm
+        assert cell(figure, f"measure over balls, {limit}") == f"{large.over_balls(ball, allowance):.3f}"
+    assert cell(figure, "reference diameter") == f"{8.0 * 190 / math.cos(large.helix):.3f}"
+
+
+def test_the_height_of_a_rack_that_fills_its_paper_keeps_off_the_frame() -> None:
+    """The words had touched the frame of an A4: here they keep 2 mm off it, as far as lines of a view do."""
+    rack = {"module": 5.0, "teeth": [14, "rack"], "helix_angle": 20.0, "rack_teeth": 9}
+    figure = part_drawing.drawn(whole("rack_drive", **rack))["rack"]()
+    _, _, right, _ = vars(figure)["view"]
+    height = f"{5.0 * 2.25 + 12.0:.3f}"  # tooth and rim
+    (text,) = (each for each in figure.axes[0].texts if each.get_text() == height)
+    box = text.get_window_extent(FigureCanvasAgg(figure).get_renderer()).transformed(figure.transFigure.inverted())
+    assert box.x1 <= right - 2.0 / (25.4 * figure.get_figwidth())
+
+
 def test_the_centre_distance_of_a_table_is_that_of_its_shifts() -> None:
     """cos(a_t) (z1 + z2) m/(2 cos(b) cos(a_w)) with inv(a_w) = inv(a_t) + 2 (x1 + x2) tan(a)/(z1 + z2)."""
     figure = part_drawing.drawn(whole("gear_pair"))["gear1"]()

@@ -48,6 +48,8 @@ _ERROR = 0.01
 """Of the outline on the paper [mm]."""
 _GAP, _SIDE = 14.0, 12.0
 """Between the views, and for the dimension beside the second one [mm of paper]."""
+_OF_RACK = 12.0 + 7.0j
+"""For the dimensions beside and below a rack [mm of paper]."""
 _ABOVE = 6j
 """Height for the width of the second view, half of it above [mm of paper]."""
 _TURN = 2.0 * math.pi
@@ -89,7 +91,7 @@ def draw(design: Any, makes: Sequence[Callable[[], Part]], number: str) -> Figur
     rows = [] if part.lines is not None else _polar_rows(part)
     pages = paper.PAGES[1:] if len(rows) > _A4_ROWS else paper.PAGES
     width = 0.0 if _is_rack(part) else part.width or 0.0
-    beside = dimensions.of_rows(part)
+    beside = _OF_RACK if _is_rack(part) else dimensions.of_rows(part)
     second = (_GAP + _SIDE) * (width > 0.0)
     page, scale = paper.fitted(high - low + width, beside + second + (_ABOVE if width else 0.0), pages)
     made, axes = paper.sheet(page)
@@ -260,7 +262,9 @@ def _table(made: Figure, page: paper.Page, part: Part) -> None:
     """The lines of the part's table."""
     assert part.lines is not None, "asked for only of parts with such lines"
     box = page.table
-    rows = [[item, symbol, unit.replace("um", "µm"), gear_text(value)] for item, symbol, value, unit in part.lines()]
+    rows = [
+        [item, symbol, unit.replace("um", "µm"), gear_text(value, unit)] for item, symbol, value, unit in part.lines()
+    ]
     count = 2 if page.name == "A4" and len(rows) > _A4_LINES else 1
     most = max(-(-len(rows) // count), _A4_LINES if page.name == "A4" else _A3_LINES)
     wide, tall = (box.right - box.left) / count, box.high - box.low - 2.0
