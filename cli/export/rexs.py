@@ -109,23 +109,21 @@ def _gear(
     i: int,
     hand: int,
 ) -> int:
-    """A gear on its shaft, with material, both flanks and the tool that cuts them; once, though it may mesh twice."""
+    """A gear on its shaft with material, flanks and the tool that cuts them; once, though it may mesh twice."""
     name, pair, widths, rated = mesh.names[i], mesh.pair, mesh.widths, mesh.rated
     if name in known:
         return known[name]
     shaft = model.component("shaft", f"shaft of {name}", iter(()))
     model.relation("assembly", assembly=unit, part=shaft)
     ring = i == 1 and pair.internal
-    gear = model.component("ring_gear" if ring else "cylindrical_gear", name, _gear_data(pair, i, widths, hand))
+    accuracy = () if rated is None else _accuracy(rated, i)
+    attributes = iter((*_gear_data(pair, i, widths, hand), *accuracy))
+    gear = model.component("ring_gear" if ring else "cylindrical_gear", name, attributes)
     model.relation("assembly", assembly=shaft, part=gear)
     if rated is not None:
         material = model.component("material", rated.steels[i].name, _material(rated, i))
         model.relation("reference", origin=gear, referenced=material)
-    accuracy = () if rated is None else tuple(_accuracy(rated, i))
-    sides = [
-        model.component("cylindrical_gear_flank", f"{name}, {side} flank", iter((*_flank(pair, i), *accuracy)))
-        for side in _SIDES
-    ]
+    sides = [model.component("cylindrical_gear_flank", f"{name}, {side} flank", _flank(pair, i)) for side in _SIDES]
     model.relation("flank", gear=gear, left=sides[0], right=sides[1])
     if pair.tools[i] is not None and not ring:
         tool = model.component("rack_shaped_tool", f"tool of {name}", _tool(pair, i))
@@ -183,7 +181,7 @@ def _tool(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
     yield "normal_module", "mm", pair.module
     yield "normal_pressure_angle", "deg", math.degrees(pair.pressure_angle)
     yield "addendum_coefficient_reference_profile", "none", tool.addendum
-    yield "tip_radius_factor", "none", tool.rounding
+    yield "tip_radius_factor", "none", tool.rounding or None  # the data model has none of 0
 
 
 def _stage_data(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
@@ -197,8 +195,8 @@ def _material(rated: Rated, i: int) -> Iterator[tuple[str, str, Any]]:
     yield "material_designation", "none", steel.name
     hardness, unit = ("surface_hardness_brinell", "HB") if steel.kind.brinell else ("surface_hardness_vickers", "HV")
     yield hardness, unit, steel.hardness
-    yield "allowable_stress_number_contact_iso_6336_2003", "MPa", steel.contact_limit
-    yield "nominal_stress_number_tooth_root_iso_6336_2003", "MPa", steel.bending_limit
+    yield "allowable_stress_number_contact_iso_6336_2003", "N / mm^2", steel.contact_limit
+    yield "nominal_stress_number_tooth_root_iso_6336_2003", "N / mm^2", steel.bending_limit
 
 
 def _accuracy(rated: Rated, i: int) -> Iterator[tuple[str, str, Any]]:

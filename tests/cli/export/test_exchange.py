@@ -62,6 +62,7 @@ UNITS = {
         "normal_tooth_thickness_at_reference_diameter": "mm",
         "number_of_teeth_for_span_measurement": "none",
         "span_measurement": "mm",
+        "tolerance_class_according_to_iso_1328_2013": "none",
     },
     "cylindrical_gear_flank": {
         "normal_pressure_angle": "deg",
@@ -69,7 +70,6 @@ UNITS = {
         "addendum_modification_coefficient": "none",
         "addendum_modification": "mm",
         "addendum_coefficient_basic_profile": "none",
-        "tolerance_class_according_to_iso_1328_2013": "none",
     },
     "rack_shaped_tool": {
         "normal_module": "mm",
@@ -88,8 +88,8 @@ UNITS = {
         "material_designation": "none",
         "surface_hardness_vickers": "HV",
         "surface_hardness_brinell": "HB",
-        "allowable_stress_number_contact_iso_6336_2003": "MPa",
-        "nominal_stress_number_tooth_root_iso_6336_2003": "MPa",
+        "allowable_stress_number_contact_iso_6336_2003": "N / mm^2",
+        "nominal_stress_number_tooth_root_iso_6336_2003": "N / mm^2",
     },
 }
 UNITS["ring_gear"] = UNITS["cylindrical_gear"]
@@ -148,13 +148,21 @@ def test_rexs_of_a_rated_pair_has_material_grade_and_safeties() -> None:
     of_kind = {kind: [c for c in components if components[c].attrib["type"] == kind] for kind in UNITS}
     steels = [attributes[c]["material_designation"] for c in of_kind["material"]]
     assert steels == ["16MnCr5", "18CrNiMo7-6"]
-    grades = {attributes[c]["tolerance_class_according_to_iso_1328_2013"] for c in of_kind["cylindrical_gear_flank"]}
+    grades = {attributes[c]["tolerance_class_according_to_iso_1328_2013"] for c in of_kind["cylindrical_gear"]}
     assert grades == {"6"}
     data = of_kind["cylindrical_stage_gear_data"]
     safeties = [float(attributes[c]["safety_factor_pitting_iso_6336_2006"]) for c in data]
     assert tuple(safeties) == made.safety_pitting
     (stage,) = of_kind["cylindrical_stage"]
     assert float(attributes[stage]["dynamic_factor_iso_6336_2006"]) == made.raw("dynamic_factor")
+
+
+def test_rexs_omits_the_rounding_of_a_sharp_tool() -> None:
+    """The range of `tip_radius_factor` in the data model is open at 0: a strict reader refuses the whole file."""
+    components, attributes = _model(as_rexs(design({**PAIR, "tool": {"addendum": 1.25, "rounding": 0.0}})))
+    tools = [attributes[c] for c, element in components.items() if element.attrib["type"] == "rack_shaped_tool"]
+    assert len(tools) == 2
+    assert not any("tip_radius_factor" in tool for tool in tools)
 
 
 def test_an_idler_is_one_gear_of_two_stages(designs: Path) -> None:
