@@ -177,6 +177,9 @@ def track(design: Any) -> Makers:
     }
 
 
+_LOOKS_OF_TRACK = 1441
+
+
 def _developed(design: Any, name: str, radius: float, side: int) -> Part:
     drum = design.drum
     joints = [joint for joint in design.follower_motion.joints if 0.0 < joint < _TURN]
@@ -197,6 +200,8 @@ def _developed(design: Any, name: str, radius: float, side: int) -> Part:
         return Stretch(CAM_LAYERS, both, low, high, extra=extra)
 
     found = design.check_cam_undercut()
+    off = float(drum.off_development(radius, np.linspace(0.0, _TURN, _LOOKS_OF_TRACK)).max())
+    beside = f"about {off:.2g} mm" if math.isfinite(off) else "more than a roller radius"
     return Part(
         name=name,
         title=f"{name.partition('_')[2]} wall of the track, developed at the {name.partition('_')[0]}",
@@ -204,6 +209,7 @@ def _developed(design: Any, name: str, radius: float, side: int) -> Part:
         closed=False,
         notes=(
             f"developed at radius {radius:.9g} mm; roller radius {drum.roller_radius:.9g} mm",
+            f"plane development: on the cylinder a wall lies up to {beside} from its line; the table walls is exact",
             "frame: x along the circumference from cam angle 0 on, y along the axis, lift 0 at y 0",
         ),
         findings=(found.message,) if found.status == "fail" else (),

@@ -133,6 +133,21 @@ class Drum:
         h = np.sqrt(x * x + s1 * s1)
         return x * phi - side * self.roller_radius * s1 / h, s + side * self.roller_radius * x / h
 
+    def off_development(self, x: float, phi: Reals) -> Reals:
+        """How far a wall, where it meets the cylinder of a radius, lies from its line on the development [mm].
+
+        Notes
+            The cylinder bends away from the roller's section: a wall meets it at the place u along the roller's axis,
+            u^2 + (r_g s')^2/(u^2 + s'^2) = x^2. At right angles to the pitch line; nan where a roller larger than the
+            cylinder does not meet it.
+        """
+        s1, roller = self.motion.evaluate(phi, 1)[1], self.roller_radius
+        with np.errstate(invalid="ignore"):
+            square = 0.5 * (x * x - s1 * s1 + np.sqrt((x * x + s1 * s1) ** 2 - (2.0 * s1 * roller) ** 2))
+            across, along = (roller * each / np.sqrt(square + s1 * s1) for each in (s1, np.sqrt(square)))
+            arc = x * np.arcsin(across / x)
+        return np.asarray(np.abs((s1 * arc + x * along) / np.hypot(x, s1) - roller))
+
 
 _TRACK = ("max_pressure_angle", "pressure_angle_outside", "min_curvature_radius", "least_wall_factor")
 _CHECKS = ("pressure-angle", "cam-undercut", "velocity-step", "acceleration-step", "jerk-step", *LAW_CHECKS)

@@ -8,6 +8,7 @@ from typing import Any
 import factory
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 DATA = {
     "kind": "cylindrical-cam",
@@ -80,6 +81,24 @@ def test_quantities_by_close_places() -> None:
     assert design.min_curvature_radius == pytest.approx(1.0 / bend, rel=1e-7)
     factors = [one.wall_factor(x, side, close).min() for x in (48.0, 60.0) for side in (1, -1)]
     assert design.least_wall_factor == pytest.approx(min(factors), rel=1e-7)
+
+
+@pytest.mark.parametrize("x", [48.0, 60.0])
+def test_how_far_a_wall_on_the_cylinder_lies_from_its_development(x: float) -> None:
+    """The point of a wall whose distance from the axis is x, sought along the roller, against the developed line."""
+    one = drum(1)
+    found = one.off_development(x, PHI)
+    for phi, off in zip(PHI[::7], found[::7], strict=True):
+        at = np.array([phi])
+        place = brentq(lambda u, at=at: float(np.hypot(*one.wall(u, 1, at)[:2])[0]) - x, 0.7 * x, 1.01 * x)
+        east, north, along = (float(each[0]) for each in one.wall(place, 1, at))
+        arc = x * float(np.angle((east + 1j * north) * np.exp(1j * phi)))
+        s1 = float(one.motion.evaluate(at, 1)[1][0])
+        rise = along - float(one.motion.evaluate(at, 0)[0][0])
+        beside = (s1 * arc + x * rise) / np.hypot(x, s1)  # at right angles to the pitch line, which falls to the left
+        assert off == pytest.approx(abs(beside - 10.0), abs=1e-10)
+    assert found.max() > 1e-4
+    assert one.off_development(x, np.zeros(1))[0] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_the_development_is_the_pitch_line_and_walls_a_radius_beside_it() -> None:
