@@ -148,14 +148,15 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
         return contours[asked.curve]
     made = [contour for contour in contours[CurveForm.SPLINE] if _is_body(contour)]
     if not made:
-        words = "a circle of pins" if any(contour.part.circles for contour in contours[CurveForm.SPLINE]) else "a path"
+        pins = any(line.layer == "PIN_CIRCLE" for contour in contours[CurveForm.SPLINE] for line in contour.lines)
+        words = "a circle of pins" if pins else "a path"
         raise GearlinkError(f"{words} is no solid\ngive --as dxf, svg or csv")
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
 
 
 def _is_body(contour: Contour) -> bool:
-    return any(line.layer == "PROFILE" for line in contour.lines)
+    return contour.part.body and any(line.layer == "PROFILE" for line in contour.lines)
 
 
 def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]) -> tuple[str, ...]:

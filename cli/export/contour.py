@@ -77,6 +77,7 @@ class Part:
         rim : float [mm] - above 0: the body lies between the profile and this circle
         lines : gives the lines of its table on a drawing: item, symbol, value, unit
         dimensions : what a drawing shows beside diameters of circles
+        body : the profile bounds a body, which the path of a cutter does not
     """
 
     name: str
@@ -94,6 +95,7 @@ class Part:
     rim: float = 0.0
     lines: Callable[[], list[tuple[str, str, Any, str]]] | None = None
     dimensions: tuple[Dimension, ...] = ()
+    body: bool = True
 
 
 @dataclass(frozen=True)

@@ -103,9 +103,8 @@ def follower_cam(design: Any) -> Makers:
     if design.spec.is_flat:
         flat: Makers = {"main_cam": lambda: flat_cam("main_cam", cams.flat)}
         if cutter is not None:
-            flat["cutter"] = lambda: flat_cam(
-                "cutter", cams.flat.outside(cutter), f"path of a cutter of radius {cutter:.9g} mm"
-            )
+            words = f"path of a cutter of radius {cutter:.9g} mm"
+            flat["cutter"] = lambda: replace(flat_cam("cutter", cams.flat.outside(cutter), words), body=False)
         return flat
     found: Makers = {"main_cam": lambda: disc_cam("main_cam", cams.main)}
     if design.spec.closure == "groove":
@@ -118,7 +117,7 @@ def follower_cam(design: Any) -> Makers:
     if cutter is not None:
         path = replace(cams.main, name="cutter path", roller_radius=cams.main.roller_radius - cutter)
         words = f"path of a cutter of radius {cutter:.9g} mm; {_touching(cams.main)}"
-        found["cutter"] = lambda: disc_cam("cutter", path, words)
+        found["cutter"] = lambda: replace(disc_cam("cutter", path, words), body=False)
     return found
 
 

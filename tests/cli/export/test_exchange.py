@@ -22,6 +22,7 @@ from gearlink.cli.export.contour import Contour, contour
 from gearlink.cli.export.options import CurveForm, Export, FileFormat
 from gearlink.cli.export.rexs import as_rexs
 from gearlink.cli.options import Options
+from gearlink.core.base.errors import GearlinkError
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.parts.gears.tooth.involute import involute
 
@@ -445,6 +446,18 @@ def test_pins_of_a_reducer_are_no_solid_and_have_their_places_in_a_table(
     for k in range(12):
         turn = math.radians(30.0 * k)
         assert places[30.0 * k] == pytest.approx(60.0 * complex(math.cos(turn), math.sin(turn)), abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["lift_cam", "arc_cam"])
+def test_the_path_of_a_cutter_is_no_solid(name: str) -> None:
+    """Beside the solid of a cam it had been written as if it were another, larger cam."""
+    given = design({**worked(name), "cam": {**worked(name)["cam"], "cutter_radius": 10}})
+    made = [contour(make(), 0.1, CurveForm.SPLINE) for make in parts.makers(given).values()]
+    assert [each.part.name for each in made] == ["main_cam", "cutter"]
+    asked = Export((FileFormat.STEP,), (), 0.1, CurveForm.SPLINE, Options())
+    assert [each.part.name for each in _drawn(FileFormat.STEP, {CurveForm.SPLINE: made}, asked)] == ["main_cam"]
+    with pytest.raises(GearlinkError, match="a path is no solid"):
+        _drawn(FileFormat.STEP, {CurveForm.SPLINE: made[1:]}, asked)
 
 
 def test_every_kind_with_gears_has_parts(designs: Path) -> None:
