@@ -163,6 +163,8 @@ class Design:
     outlines: ClassVar[dict[str, Outline]]
     keys: ClassVar[Mapping[str, tuple[Key, ...]]] = {}
     """Key results of its own commands, in the form of `core.base.key_results`, which has those that all kinds share."""
+    titles: Mapping[str, str] = {}
+    """What it calls key results otherwise than other designs do."""
     key_tables: ClassVar[tuple[str, ...]] = ()  # tables that stand beside them
     extra_tables: ClassVar[tuple[str, ...]] = ()
     page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows

@@ -88,7 +88,7 @@ TITLES = {
     "extreme_crank_angles": "reversals at",
     "worst": "register, worst case",
     "rss": "register, standard deviation",
-    "band": "register, 99.73 % band",
+    "band": "register, 99.73 % of the machines",
     "force": "force of the balancing device",
     "yield_low": "yield, 95 % at least",
     "yield_high": "yield, 95 % at most",
@@ -110,16 +110,18 @@ class KeyResult(NamedTuple):
         quantity : Quantity
         asked : float or None - what the file asks for, in the quantity's unit
         how : str - "required", "at least" or "at most"; empty where nothing is asked for
+        called : str - what this design calls it; empty where all call it the same
     """
 
     quantity: Quantity
     asked: float | None = None
     how: str = ""
+    called: str = ""
 
     @property
     def title(self) -> str:
         """What it is called, its name where that says it; of a register also what its two values are of."""
-        title = TITLES.get(self.quantity.name, self.quantity.name)
+        title = self.called or TITLES.get(self.quantity.name, self.quantity.name)
         if title.startswith(_REGISTER) and isinstance(self.quantity.value, list):
             return f"{title.removeprefix(_REGISTER)}, torque + and -"
         return title
@@ -138,10 +140,11 @@ def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tu
     for key in design.keys.get(command) or SHARED.get(command, ()):
         name, *paths = (key,) if isinstance(key, str) else key
         asked = _asked(design, paths)
-        if name.startswith("?") and not asked:
+        if name.startswith("?") and asked is None:
             continue
+        value, how = asked or (None, "")
         for quantity in _matching(name.lstrip("?"), shown):
-            found.setdefault(quantity.name, KeyResult(quantity, *asked))
+            found.setdefault(quantity.name, KeyResult(quantity, value, how, design.titles.get(quantity.name, "")))
     for quantity in shown.values():
         if len(found) >= FEWEST:
             break
@@ -165,11 +168,11 @@ def _size(quantity: Quantity) -> float:
     return float(value) if isinstance(value, (int, float)) else 0.0
 
 
-def _asked(design: Any, paths: Sequence[str]) -> tuple[Any, ...]:
-    """The value that the first key of a file has, and how it stands to what was reached; nothing without one."""
+def _asked(design: Any, paths: Sequence[str]) -> tuple[Any, str] | None:
+    """The value that the first key of a file has, and how it stands to what was reached; None without one."""
     for path in paths:
         key = path.lstrip("<>?")
         value = getattr(design, key[1:], None) if key.startswith(".") else number_at(design.spec, key)
         if value is not None:
             return (None, "") if path.startswith("?") else (value, _HOW.get(path[0], "required"))
-    return ()
+    return None

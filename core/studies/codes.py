@@ -268,10 +268,11 @@ REGISTER_BUDGET = Rule(
     "GL520",
     "register budget exceeded",
     "The errors of the parts add up to more than register.tolerance over the stretch that prints or holds: 99.73 % of "
-    "the machines do not keep it, or at worst one does not (a warning).",
+    "the machines do not keep it (by register.method worst: not all), or at worst one does not (a warning).",
     "Colours no longer fall on each other, or the sheet is handed over where the next gripper does not expect it.",
     "Improve first what is listed first in the table budget.",
-    "what 99.73 % keep over the stretch, relative to its start, <= register.tolerance; worst case: a warning",
+    "what 99.73 %, by method worst all, keep over the stretch, relative to its start, <= register.tolerance; "
+    "worst case: a warning",
     "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
     ("register-budget",),
     ("register.tolerance", "register"),

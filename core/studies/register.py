@@ -382,9 +382,14 @@ class RegisterDesign(Design):
         """Maximum standard deviation of the error [mm]."""
         return [float(one.rss.max()) for one in self.budgets]
 
+    @property
+    def titles(self) -> Mapping[str, str]:  # type: ignore[override]
+        """What its band is of."""
+        return _TITLES.get(self.section.method, {})
+
     @cached_property
     def band(self) -> list[float]:
-        """What 99.73 % of the machines keep, to either side [mm]."""
+        """What 99.73 % of the machines keep, of `register.method` worst all of them, to either side [mm]."""
         if self.section.method == "worst":
             return self.worst
         if self.section.method == "mc":
@@ -489,7 +494,8 @@ class RegisterDesign(Design):
         band, worst = max(self.band), max(self.worst)
         status: Status = "fail" if band > limit else "warn" if worst > limit else "pass"
         fix = "" if status == "pass" else self._tighter(limit, at_worst=status == "warn")
-        yield budget_check(status, f"register error {self._where}", band, worst, limit, fix)
+        share = ALL if self.section.method == "worst" else MOST
+        yield budget_check(status, f"register error {self._where}", band, worst, limit, fix, share=share)
 
     def _tighter(self, limit: float, *, at_worst: bool) -> str:
         """The sources that are to be tightened, and how much; where the band is one of samples, by their budget."""
@@ -557,7 +563,7 @@ def are_alike(one: Budget, other: Budget) -> bool:
 def contribution(source: Scatter, gain: Any) -> Contribution:
     """A source with its gain; what has a direction is 0 on average."""
     mean = source.law.moments()[0] if source.coordinates == 1 else 0.0
-    return Contribution(source.key, np.asarray(gain), source.limit, source.sigma, mean)
+    return Contribution(source.key, np.asarray(gain), source.limit, source.sigma, mean, keeps=source.keeps_limit)
 
 
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
@@ -568,8 +574,15 @@ def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
 
 
 SIGNS = (1, -1)
+MOST, ALL = "99.73 %", "worst case"
+"""Which of the machines a band is of."""
 _SAMPLES = 16_384
 _KEPT = 0.9973
+_TITLES = {
+    "worst": {"band": "register, all of the machines"},
+    "mc": {"band": "register, 99.73 % of the samples"},
+}
+"""What a band is of by `register.method`, where that is not the usual one."""
 _PLACES = 13
 
 
@@ -598,13 +611,13 @@ def _band(errors: Reals) -> float:
 
 
 def budget_check(
-    status: Status, what: str, band: float, worst: float, limit: float, fix: str, *, at: str = ""
+    status: Status, what: str, band: float, worst: float, limit: float, fix: str, *, at: str = "", share: str = MOST
 ) -> Check:
-    """GL520 of a band of 3 sigma and a worst case [mm]; a warning is of the worst case alone."""
+    """GL520 of a band that a share of the machines keeps and a worst case [mm], of which alone a warning is."""
     warned = status == "warn"
     shown = Shown(worst if warned else band, limit, "mm", "<=")
-    aside = f"3 sigma {short(band)} mm" if warned else f"worst case {short(worst)} mm"
-    called = f"{what}, {'worst case' if warned else '3 sigma'}"
+    aside = "" if share == ALL else f"{share} {short(band)} mm" if warned else f"{ALL} {short(worst)} mm"
+    called = f"{what}, {ALL if warned else share}"
     return REGISTER_BUDGET.check(status, called, band, limit, "mm", shown=shown, aside=aside, at=at, fix=fix)
 
 

@@ -131,12 +131,13 @@ class RegisterOfMachine(Design):
 
     @property
     def band(self) -> float:
-        """What 99.73 % of the machines keep, to either side [mm]."""
+        """What 99.73 % of the machines keep, to either side [mm]: not more than the members add up to."""
         import numpy as np
 
         from gearlink.core.studies.tolerance.budget import normal_band
 
-        return float(normal_band(np.array([self.mean]), np.array([self.rss]))[0])
+        most = sum(abs(each.gain) * float(each.budget.most.max()) for each in self.shares.values())
+        return min(most, float(normal_band(np.array([self.mean]), np.array([self.rss]))[0]))
 
     @property
     def wind_up_at_print(self) -> float | None:

@@ -31,6 +31,7 @@ class Contribution:
         sigma : float [mm] - its standard deviation; of a vector that of one component
         mean : float [mm] - by how much all machines differ from nominal, of a real gain
         relative : bool - the error at the start has the same cause as that later on, which an uneven profile's has not
+        keeps : bool - its parts lie within `limit`, at least 99.73 % of them
     """
 
     source: str
@@ -39,6 +40,7 @@ class Contribution:
     sigma: float
     mean: float = 0.0
     relative: bool = True
+    keeps: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +60,15 @@ class Row:
 class Budget:
     """All sources together.
 
-    worst, rss, mean, band : (N,) arrays [mm] - sum of magnitudes, root of the sum of squares, what all machines have
-    alike, and what 99.73 % of them keep; at : int - where `band` is largest
+    worst, rss, mean, most, band : (N,) arrays [mm] - sum of magnitudes, root of the sum of squares, what all machines
+    have alike, what sources within their limits and the normal band of the others add up to, and what 99.73 % of the
+    machines keep; at : int - where `band` is largest
     """
 
     worst: Reals
     rss: Reals
     mean: Reals
+    most: Reals
     band: Reals
     at: int
     rows: tuple[Row, ...]
@@ -87,6 +91,9 @@ def budget(
     Notes
         The gain's difference is taken before its magnitude: both ends of a stretch have the same cause. The error of a
         cam's profile has another one at each: there both count, at worst as a sum, at random as a root of squares.
+        Few sources are no normal sum: uniform sizes, or a pin that touches its hole, add up to less than 3 sigma of
+        them. The band is the less of the normal one and of `most`, which is the worst case where all parts keep their
+        limits: |X| <= sum |g - g0| limit of those that do, plus the band of those that do not.
     Example
         >>> frame = Contribution("frame", np.array([1.0, -2.0]), 0.01, 0.003)
         >>> found = budget([frame, Contribution("pin", np.array([1j, 1.0]), 0.02, 0.01)], None)
@@ -98,18 +105,13 @@ def budget(
     """
     gains = [counted(one, start) for one in contributions]
     limits = np.array([one.limit for one in contributions])
-    sigmas = np.array([one.sigma for one in contributions])
     spreads = np.abs(np.array(gains))
     magnitudes = np.array([at_worst(one, start) for one in contributions])
-    worst, squares = limits @ magnitudes, (sigmas[:, None] * spreads) ** 2
-    names = [one.source for one in contributions]
-    for (one, other), rho in (correlations or {}).items():
-        if one in names and other in names:
-            i, j = names.index(one), names.index(other)
-            squares[i] += rho * sigmas[i] * sigmas[j] * np.real(gains[i] * np.conj(gains[j]))
-    rss = np.sqrt(np.maximum(squares.sum(axis=0), 0.0))
+    worst, squares = limits @ magnitudes, _squares(contributions, gains, correlations or {})
     means = np.array([one.mean for one in contributions])[:, None] * np.real(gains)
-    band = normal_band(means.sum(axis=0), rss)
+    mean, rss = means.sum(axis=0), _root(squares)
+    most = _most(contributions, limits[:, None] * magnitudes, means, gains, correlations or {})
+    band = np.minimum(normal_band(mean, rss), most)
     at = int(np.argmax(band))
     whole = float(squares[:, at].sum())
     rows = tuple(
@@ -124,7 +126,42 @@ def budget(
         )
         for one, magnitude, spread, square, mean in zip(contributions, magnitudes, spreads, squares, means, strict=True)
     )
-    return Budget(worst, rss, means.sum(axis=0), band, at, rows)
+    return Budget(worst, rss, mean, most, band, at, rows)
+
+
+def _squares(
+    contributions: Sequence[Contribution], gains: Sequence[NDArray[Any]], correlations: Mapping[tuple[str, str], float]
+) -> Reals:
+    """Covariance of each source with the sum of all; (sources, N) array."""
+    scatters = [one.sigma * gain for one, gain in zip(contributions, gains, strict=True)]
+    squares = np.abs(np.array(scatters)) ** 2
+    names = [one.source for one in contributions]
+    for (one, other), rho in correlations.items():
+        if one in names and other in names:
+            i, j = names.index(one), names.index(other)
+            squares[i] += rho * np.real(scatters[i] * np.conj(scatters[j]))
+    return squares
+
+
+def _root(squares: Reals) -> Reals:
+    found: Reals = np.sqrt(np.maximum(squares.sum(axis=0), 0.0))
+    return found
+
+
+def _most(
+    contributions: Sequence[Contribution],
+    costs: Reals,
+    means: Reals,
+    gains: Sequence[NDArray[Any]],
+    correlations: Mapping[tuple[str, str], float],
+) -> Reals:
+    """What sources within their limits add up to at worst, and the normal band of the others."""
+    loose = [i for i, one in enumerate(contributions) if not one.keeps]
+    if not loose:
+        return np.asarray(costs.sum(axis=0))
+    squares = _squares([contributions[i] for i in loose], [gains[i] for i in loose], correlations)
+    beside = normal_band(means[loose].sum(axis=0), _root(squares))
+    return np.asarray(np.delete(costs, loose, axis=0).sum(axis=0) + beside)
 
 
 def tightened(

@@ -65,6 +65,8 @@ def radial_clearance(bore: float, group: str) -> tuple[float, float]:
 
 
 MOST_COORDINATES = 64
+_EVEN = 1.0 + 1e-9
+"""Sigma is a sixth of the limits' distance only to rounding."""
 CAM_PROFILE, ROLLER_ARM, RETURN_ARM = "cam.profile", "links.roller_arm", "links.return_roller_arm"
 
 
@@ -106,6 +108,12 @@ class Scatter:
         if self.kind == "pin":
             return 0.5 * self.law.upper
         return max(abs(self.law.lower), abs(self.law.upper))
+
+    @property
+    def keeps_limit(self) -> bool:
+        """Whether its parts lie within `limit`; of a normal law three sigma of them."""
+        most = max(abs(self.law.lower), abs(self.law.upper)) * _EVEN
+        return self.law.form != "normal" or abs(self.law.mean) + 3.0 * self.law.sigma <= most
 
     @property
     def sigma(self) -> float:

@@ -69,7 +69,7 @@ def test_the_budget_is_judged(limit: float, status: str) -> None:
     assert check.status == status
     assert check.limit == limit
     if status == "fail":
-        assert "register error, 3 sigma" in check.message
+        assert "register error, 99.73 %" in check.message
 
 
 def test_wind_up_at_the_print_is_the_lag_of_the_output_at_its_radius() -> None:

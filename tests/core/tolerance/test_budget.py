@@ -48,6 +48,61 @@ def test_a_band_does_not_depend_on_sign_or_unit() -> None:
     assert normal_band(1e-6 * mean, 1e-6 * sigma) == pytest.approx(1e-6 * found, rel=1e-14)
 
 
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 12])
+def test_a_band_ends_where_its_sources_do(count: int) -> None:
+    """3 sigma of n uniform sizes is sqrt(3 n) of their limit: more than all n together up to n = 3."""
+    sources = [Contribution(f"{i}", np.array([1.0]), 0.01, 0.01 / math.sqrt(3.0)) for i in range(count)]
+    found = budget(sources, None)
+    assert found.band[0] == pytest.approx(0.01 * min(count, math.sqrt(3.0 * count)), rel=1e-14)
+    assert found.band[0] <= found.worst[0]
+
+
+def test_what_exceeds_its_limit_has_its_own_band_beside_the_limits_of_the_others() -> None:
+    """C_p 0.5: 3 sigma are twice the limit. Samples of the sum: 2^18 know a quantile of 0.9973 to a few thousandths."""
+    loose = [Contribution(f"l{i}", np.array([1.0]), 0.01, 0.02 / 3.0, keeps=False) for i in range(2)]
+    even = Contribution("even", np.array([1.0]), 0.09, 0.09 / math.sqrt(3.0))
+    rho = {("l0", "l1"): 0.5, ("l1", "l0"): 0.5, ("even", "l0"): 0.2, ("l0", "even"): 0.2}
+    (band,) = budget([*loose, even], None, rho).band
+    assert band == pytest.approx(0.09 + 0.02 * math.sqrt(3.0), rel=1e-14)
+    chance = np.random.default_rng(3)
+    x, y, z = chance.multivariate_normal(np.zeros(3), [[1, 0.5, 0.2], [0.5, 1, 0], [0.2, 0, 1]], 2**18).T
+    total = 0.02 / 3.0 * (x + y) + 0.09 * np.vectorize(math.erf)(z / math.sqrt(2.0))
+    assert np.quantile(np.abs(total), COVERED) < band
+
+
+@pytest.mark.parametrize(
+    ("law", "keeps"),
+    [
+        ({}, True),
+        ({"law": "uniform"}, True),
+        ({"cp": 1.5, "cpk": 1.0, "shift": "up"}, True),
+        ({"cp": 1.5, "cpk": 0.9, "shift": "up"}, False),
+        ({"cp": 0.5}, False),
+    ],
+)
+def test_parts_keep_their_limits_where_the_process_is_capable(law: dict[str, Any], keeps: bool) -> None:
+    made = register({"links.crank": {"plus_minus": 0.02} | law, "pins.A": {"clearance": [0.0, 0.02]}}, at=100.0)
+    one = {each.source: each for each in made.contributions(made.input_angles, 1)}
+    assert (one["links.crank"].keeps, one["pins.A"].keeps) == (keeps, True)
+    assert (made.band[0] <= made.worst[0]) is (law.get("cp") != 0.5)
+
+
+@pytest.mark.parametrize(
+    ("method", "title", "words"),
+    [
+        ("rss", "99.73 % of the machines, torque + and -", "99.73 %: "),
+        ("worst", "all of the machines, torque + and -", "worst case: "),
+        ("mc", "99.73 % of the samples, torque + and -", "99.73 %: "),
+    ],
+)
+def test_a_band_is_called_by_its_method(method: str, title: str, words: str) -> None:
+    report = register({"links.crank": {"plus_minus": 0.02}}, method=method, tolerance=1e-3).report("register")
+    assert [each.title for each in report.key if each.quantity.name == "band"] == [title]
+    (check,) = (each for each in report.checks if each.code == "GL520")
+    assert words in check.message
+    assert ("99.73" in check.message) is (method != "worst")
+
+
 def test_an_uneven_profile_counts_at_both_ends() -> None:
     """At worst it is high here and low at the start; at random the two are independent."""
     one = Contribution("profile", np.array([1.0, 2.0]), 0.03, 0.01, relative=False)
