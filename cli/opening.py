@@ -52,7 +52,7 @@ def load(source: str | os.PathLike[str], values: Values | None = None, *, comman
     Parameters
         source : str or os.PathLike - path of a design file (YAML)
         values : mapping of str to value, optional - values that replace those of the file, by dotted path
-            ("gears.crank", "teeth[1]"), in the units of design files (mm, deg, rev/min)
+            ("gears.crank", "teeth[1]"), in the units of design files (mm, deg, 1/min)
         command : str, optional - a command of its kind, such as "analyze"; default: the first that the file specifies
     Returns
         design : Design - its quantities are attributes in mm, rad, N and s, computed when they are first read;
@@ -74,7 +74,7 @@ def design(command: str | None = None, **keys: Any) -> Opened:
 
     Parameters
         command : str, optional - as for `load`
-        **keys - the top keys of a design file, `kind` among them, in its units (mm, deg, rev/min); sections are
+        **keys - the top keys of a design file, `kind` among them, in its units (mm, deg, 1/min); sections are
             dicts, lists may be tuples, ranges or arrays of shape (n,), numbers those of numpy, Decimal or Fraction
     Returns
         design : Design - as `load`

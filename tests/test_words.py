@@ -126,3 +126,10 @@ def test_the_texts_are_read() -> None:
     assert len(text) > 500_000
     assert {Path(file).suffix for file in files} == {".py", ".json", ".md", ".yaml"}
     assert re.search(r"\bmaximum\b", text)
+
+
+def test_speeds_have_one_unit() -> None:
+    """Messages and figures said rev/min where tables say 1/min; a file may say either."""
+    pages = [*(ROOT / "docs").rglob("*.md"), *(ROOT / "designs").rglob("*.yaml"), ROOT / "README.md"]
+    texts = [_joined()[0], *(path.read_text(encoding="utf-8") for path in pages)]
+    assert not [text for text in texts if "rev/min" in text]

@@ -128,9 +128,9 @@ def other_speed(given: float | None, found: float) -> str:
 
     Example
         >>> other_speed(200.0, 200.0), other_speed(None, 200.0), other_speed(180.0, 200.0)
-        ('', '', 'input_speed: 180 rev/min (required by speed.min and speed.max: 200 rev/min)\\nomit input_speed')
+        ('', '', 'input_speed: 180 1/min (required by speed.min and speed.max: 200 1/min)\\nomit input_speed')
     """
     if given is None or abs(given - found) <= 1e-9 * abs(found):
         return ""
     now, required = apart(given, found)
-    return f"input_speed: {now} rev/min (required by speed.min and speed.max: {required} rev/min)\nomit input_speed"
+    return f"input_speed: {now} 1/min (required by speed.min and speed.max: {required} 1/min)\nomit input_speed"

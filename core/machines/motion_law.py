@@ -123,7 +123,7 @@ class MotionLawDesign(WithShapedLaws, Design):
 
         spec = self.spec
         angle = None if spec.angle is None else math.radians(spec.angle)
-        unit = "" if spec.speed is None else "rev/min"
+        unit = "" if spec.speed is None else "1/min"
         return Phase(angle, spec.stroke, spec.seconds, spec.speed, unit, spec.frequency, spec.damping, in_periods=True)
 
     @property

@@ -83,8 +83,12 @@ def residual(axes: Axes, design: Any) -> None:
     table = design.table("spectrum")
     speed, amplitude = table["speed"], table["residual"]
     unit = table.units[table.columns.index("residual")]
-    words = table.units[table.columns.index("speed")].replace("1/min", "rev/min")
-    panels.curves(axes, f"speed [{words}]", f"residual [{unit}]", "Residual vibration over the speed")
+    panels.curves(
+        axes,
+        f"speed [{table.units[table.columns.index('speed')]}]",
+        f"residual [{unit}]",
+        "Residual vibration over the speed",
+    )
     axes.plot(speed, amplitude, color=style.PURPLE, linewidth=1.4)
     at = float(speed[-1]) / 1.3
     axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=f"speed {at:.5g}")
@@ -446,7 +450,7 @@ def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *,
 
 def _speed(axes: Axes, design: LoadsDesign) -> None:
     """Speed of the input with its flywheel or motor."""
-    _over_turn(axes, design, "Speed of the input", "speed [rev/min]")
+    _over_turn(axes, design, "Speed of the input", "speed [1/min]")
     table = design.table("speed")
     axes.plot(_angles(table, design), closed(table["speed"]), color=style.BLUE, linewidth=1.5)
     axes.margins(y=0.15)

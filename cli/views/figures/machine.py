@@ -358,7 +358,7 @@ def _loads(design: Any) -> Figure:
     panels.legend_above(axes, 6)
     if runs:
         speed = made.add_subplot(grid[1])
-        _over(speed, design, "Speed of the main shaft", "speed [rev/min]")
+        _over(speed, design, "Speed of the main shaft", "speed [1/min]")
         speed.plot(x, design.table("speed")["speed"], color=style.BLUE, linewidth=1.4)
         speed.margins(y=0.15)
     if wound:

@@ -496,7 +496,7 @@ def _history_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
         axes.set_xlim(0.0, float(history["time"][-1]))
         panels.legend_under_heading(axes, words, 1)
     axes = made.add_subplot(columns[0, 2])
-    panels.curves(axes, "speed [rev/min]", "dynamic coefficient [1]")
+    panels.curves(axes, "speed [1/min]", "dynamic coefficient [1]")
     axes.plot(balance["speed"], balance["dynamic_coefficient"], color=style.BLUE, linewidth=1.6)
     axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label="design speed")
     axes.set_xlim(0.0, float(balance["speed"][-1]))
@@ -582,7 +582,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     least = minimum_over(lambda n: peaks(n / design.spec.speed)[1], float(rows[0]), float(rows[-1]))
     speed = np.unique(np.concatenate([rows, np.linspace(rows[0], rows[-1], 241), [least.place]]))
     without, with_device = peaks(speed / design.spec.speed)
-    panels.curves(axes, "speed [rev/min]", "torque peak [N m]")
+    panels.curves(axes, "speed [1/min]", "torque peak [N m]")
     axes.plot(speed, without, color=style.RED, linewidth=1.6, label="without device")
     axes.plot(speed, with_device, color=style.BLUE, linewidth=1.6, label="with device", gid="with-device")
     usual = design.spec.speed / math.sqrt(2.0)
@@ -603,7 +603,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     if lowest is not None:
         axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=style.DOTTED, label="minimum working speed")
     axes.axvspan(-2.0, -1.0, color=style.LIGHT, alpha=0.45, label="harmful")
-    panels.extreme(axes, least.place, least.value, above=True, unit=" N m", at=" rev/min")
+    panels.extreme(axes, least.place, least.value, above=True, unit=" N m", at=" 1/min")
     panels.legend_under_heading(axes, "Torque on the rocker axis", 2)
 
 

@@ -562,7 +562,7 @@ def _grey(k: int) -> str:
 def speed_of(design: Any) -> float | None:
     """Speed of the input [rad/s, mm/s], where the file has one."""
     found, given = getattr(design, "angular_speed", None), getattr(design.spec, "speed", None)
-    if found is None and given is not None:  # of cams, in rev/min; machines in sheets/h have the other
+    if found is None and given is not None:  # of cams, in 1/min; machines in sheets/h have the other
         return float(given) * RPM
     if found is None and getattr(design.spec, "loads", None) is not None:
         loaded = loads_design(design)

@@ -552,7 +552,7 @@ class Machine(OfMembers):
             off = abs(self.spec.speed / f - 1.0)
             status: Status = "warn" if off < 0.1 else "pass"
             what, shown = "distance of the speed from a critical speed", Shown(100.0 * off, 10.0, "%", ">=")
-            aside, fix = f"critical speed {short(f)} rev/min", "run at another speed, or stiffen the main shaft"
+            aside, fix = f"critical speed {short(f)} 1/min", "run at another speed, or stiffen the main shaft"
             yield codes.CRITICAL_SPEED.check(status, what, off, 0.1, shown=shown, aside=aside, fix=fix)
 
     def require_named(self) -> None:

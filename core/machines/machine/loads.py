@@ -295,7 +295,7 @@ class MachineLoads(OfMembers, LoadsDesign):
     def given_speed(self) -> float:
         """Speed of the main shaft [1/min]."""
         if self.spec.speed is None:
-            raise MissingSection("`loads` needs the speed of the main shaft", key="speed", fix="give speed (rev/min)")
+            raise MissingSection("`loads` needs the speed of the main shaft", key="speed", fix="give speed (1/min)")
         return self.spec.speed
 
     @property
@@ -537,7 +537,7 @@ class MachineLoads(OfMembers, LoadsDesign):
             k = int(near[np.argmax(whole[near])])
             shown, value = Shown(100.0 * float(off[k]), 100.0 * _NEAR, "%"), float(off[k])
             aside = f"harmonic {orders[k]:g}, {short(float(whole[k]))} N m"
-            at = f"{short(float(_SHEETS * frequency / orders[k]))} rev/min"
+            at = f"{short(float(_SHEETS * frequency / orders[k]))} 1/min"
             fix = "run at another speed, or stiffen the shaft"
             yield codes.CRITICAL_SPEED.check(
                 "warn", what, value, _NEAR, side=">=", shown=shown, aside=aside, at=at, fix=fix

@@ -516,7 +516,7 @@ class SpeedTask(FamilyTask):
     @property
     def request(self) -> Any:
         """The section."""
-        return section_of(self.spec, "speed", "min, max (rev/min)")
+        return section_of(self.spec, "speed", "min, max (1/min)")
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""

@@ -237,7 +237,7 @@ class Motion:
         s = 1e-3 * unloader.distance
         if need * s >= unloader.gravity:
             most = safely_below(1e3 * unloader.gravity / need)
-            message = f"a pendulum this long is too slow for {self.spec.speed:g} rev/min: below {most} mm"
+            message = f"a pendulum this long is too slow for {self.spec.speed:g} 1/min: below {most} mm"
             raise NoSolution(message, key="unloader.distance")
         per = need / (s * (unloader.gravity - need * s))
         if self.spec.slider is None:

@@ -98,7 +98,7 @@ class DeviceSize:
 
     @property
     def balanced_speed(self) -> float:
-        """Speed of the cam at which the device balances the inertia, n sqrt(1 + reserve) [rev/min].
+        """Speed of the cam at which the device balances the inertia, n sqrt(1 + reserve) [1/min].
 
         n_bal = (phi_ud/(2 pi gamma)) sqrt(2 P r_d/(N J))
         """

@@ -219,7 +219,7 @@ class Unloading:
 
     @property
     def harmful_speed(self) -> float:
-        """Speed up to which the device raises the torque, n0 sqrt((1 + rho + f)/2) [rev/min]."""
+        """Speed up to which the device raises the torque, n0 sqrt((1 + rho + f)/2) [1/min]."""
         return self.spec.speed * math.sqrt(0.5 * (self._whole + self.spec.unloader.residual))
 
     # Force closure
@@ -239,7 +239,7 @@ class Unloading:
 
     @property
     def lift_off_speed(self) -> float:
-        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b); 0 where f is more [rev/min]."""
+        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b); 0 where f is more [1/min]."""
         whole = self._whole - self.spec.unloader.residual
         return self.spec.speed * math.sqrt(whole / self.need) if whole > 0.0 else 0.0
 

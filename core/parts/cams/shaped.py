@@ -78,12 +78,12 @@ class Drive(NamedTuple):
 
     speed: float | None = None
     rate: float = math.pi / 30.0
-    unit: str = "rev/min"
+    unit: str = "1/min"
     frequency: float | None = None
     damping: float | None = None
 
     @classmethod
-    def of(cls, spec: Any, *, rate: float = math.pi / 30.0, unit: str = "rev/min") -> Drive:
+    def of(cls, spec: Any, *, rate: float = math.pi / 30.0, unit: str = "1/min") -> Drive:
         """The drive of a design file with the keys `speed` and `loads.vibration`, where it has them."""
         vibration = getattr(getattr(spec, "loads", None), "vibration", None)
         frequency, damping = (getattr(vibration, key, None) for key in ("frequency", "damping"))

@@ -199,7 +199,7 @@ def motor_speed(design: LoadsDesign) -> Iterator[Check]:
         _OTHER_SPEED,
         name=name,
         recommended=_NEAR_SPEED,
-        aside=f"motor {short(mean)} rev/min, file {short(asked)} rev/min",
+        aside=f"motor {short(mean)} 1/min, file {short(asked)} 1/min",
         fix=f"set loads.motor.ratio near {short(ratio)}",
         note="forces, lives and vibration are those of the speed of the file" if status != "pass" else "",
     )

@@ -153,7 +153,7 @@ class LoadsDesign(Design):
             type(self).given_speed is not LoadsDesign.given_speed or getattr(self.spec, "input_speed", None) is not None
         )
         keys = ("" if own else "speed: 90, ") + f"links: {{{self.links[0]}: {{mass: 2, inertia: 0.01}}}}"
-        return self._needs(keys, "kg, kg m^2" if own else "rev/min, kg, kg m^2")
+        return self._needs(keys, "kg, kg m^2" if own else "1/min, kg, kg m^2")
 
     def _needs(self, keys: str, units: str) -> str:
         return f"`loads` needs the section loads, such as loads: {{{keys}}} ({units}); `new {self.kind}` shows its keys"
@@ -668,7 +668,7 @@ class LoadsDesign(Design):
 
     speed_unit: ClassVar[float] = RPM
     speed_seconds: ClassVar[float] = 60.0
-    speed_words: ClassVar[str] = "rev/min"
+    speed_words: ClassVar[str] = "1/min"
 
     @classmethod
     def unit_for(cls, spec: Any, name: str, /) -> str:

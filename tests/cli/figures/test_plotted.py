@@ -142,7 +142,7 @@ def test_the_pressure_angle_lies_in_the_direction_of_its_point_on_the_cam() -> N
 
 @pytest.mark.slow
 def test_the_least_torque_with_a_device_is_drawn() -> None:
-    """Between rows 5 rev/min apart it had been drawn three times as large, at another speed."""
+    """Between rows 5 1/min apart it had been drawn three times as large, at another speed."""
     made, figure = sheet("wide_swing_twin_cam", "swing")
     speed, torque = curve(figure, "with-device")
     fine = np.linspace(110.0, 113.0, 3001)

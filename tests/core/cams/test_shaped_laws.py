@@ -412,7 +412,7 @@ def test_speeds_and_units_of_a_design() -> None:
     assert refused(band | {"limit": {"jerk": 1e6}}) == "limit"
     with pytest.raises(NoSolution, match=r"natural periods per phase of the band: 800 \(limit <= 200\)") as caught:
         law(band | {"band": [300.0 * periods / 800.0, 350.0], "jerk": 120.0}, phase)
-    assert caught.value.fix == "start the band at 4.001 rev/min"
+    assert caught.value.fix == "start the band at 4.001 1/min"
     assert refused(band | {"band": [2.0, 200.1], "unit": "periods", "jerk": 120.0}, phase) == "band"
 
 

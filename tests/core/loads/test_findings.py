@@ -79,7 +79,7 @@ def test_a_bearing_that_hardly_swings_has_no_life() -> None:
     ("frequency", "off", "status"), [(6.5, 1.0 / 12.0, "warn"), (6.7, 0.7 / 6.0, "pass"), (5.9, 1.0 / 60.0, "warn")]
 )
 def test_a_harmonic_near_the_natural_frequency_is_a_resonance(frequency: float, off: float, status: str) -> None:
-    """At 120 rev/min the harmonics are the even numbers of hertz, here the third; nearer than a tenth counts."""
+    """At 120 1/min the harmonics are the even numbers of hertz, here the third; nearer than a tenth counts."""
     check = found("resonance", loads__vibration={"frequency": frequency, "damping": 0.01, "allowed_residual": 2})
     assert (check.code, check.status, check.limit) == ("GL611", status, 0.1)
     assert check.value == pytest.approx(off, abs=1e-12)
@@ -167,7 +167,7 @@ def test_a_motor_that_a_load_drives_brakes_with_what_it_may_give(most: float, st
 
 @pytest.mark.parametrize(("ratio", "status"), [(12, "pass"), (11.5, "warn"), (11, "fail"), (14, "fail"), (1, "fail")])
 def test_a_motor_runs_the_machine_at_the_speed_at_which_its_forces_are_computed(ratio: float, status: str) -> None:
-    """1500/12 less the slip are 122.7 rev/min beside 120; a ratio that was left out is 1, twelve times as fast."""
+    """1500/12 less the slip are 122.7 1/min beside 120; a ratio that was left out is 1, twelve times as fast."""
     motor = {"no_load_speed": 1500, "slope": 0.5, "ratio": ratio}
     check = found("motor-speed", loads__motor=motor, loads__flywheel={"inertia": 20.0})
     assert (check.code, check.status) == ("GL603", status)

@@ -176,7 +176,7 @@ def test_reserve_is_suggested() -> None:
 
 
 def test_reserve_of_another_speed() -> None:
-    """(n/n0)^2 - 1 + f: 0.69 holds the roller to 130 rev/min."""
+    """(n/n0)^2 - 1 + f: 0.69 holds the roller to 130 1/min."""
     assert quantity(design(reserve=0.69), "lift_off_speed") == pytest.approx(130.0, rel=1e-14)
     with pytest.raises(ValidationError, match="greater than or equal to 0"):
         design(reserve=-0.1)

@@ -63,7 +63,7 @@ def test_acceleration_on_the_way_back(assembly: int, way: str) -> None:
 
 
 def test_the_way_back_is_judged() -> None:
-    """With a quarter in reserve the roller left its cam on the way home above 34 rev/min; the design of 60 passed."""
+    """With a quarter in reserve the roller left its cam on the way home above 34 1/min; the design of 60 passed."""
     design = made()
     (check,) = design.check("force-reserve")
     early = np.linspace(0.001, design.oscillating_cam.contact[0][1], 1001)
