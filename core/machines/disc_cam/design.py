@@ -444,7 +444,7 @@ class DiscCamDesign(OfFollower, Design):
         """GL402: roller against the pitch curve, or the profile under a flat face or an edge."""
         if self.spec.rolls:
             cams = [cam for cam in (self.cams.main, self.cams.back) if cam is not None]
-            yield from undercut_checks(cams, plainly=_LARGER)
+            yield from undercut_checks(cams, plainly=_LARGER, profile_stays=self.spec.profile is not None)
             return
         limit = self.spec.limits.curvature_radius
         if self.spec.is_flat:

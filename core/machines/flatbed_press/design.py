@@ -110,9 +110,16 @@ def return_overlap(design: FlatbedPress) -> Iterator[Check]:
         if beneath.size:
             low, high = (math.degrees(end) % 360.0 for end in beneath[[0, -1]])
             what, aside = "revolutions of the cylinder per sheet", "the printed area passes the forme again"
-            at, fix = f"input angles {short(low)} to {short(high)} deg", "set cylinder.gear_ratio to 1"
+            at, fix = f"input angles {short(low)} to {short(high)} deg", _whole_turns(design, 1)
             yield REGISTER.check("warn", what, float(turns), 1.0, aside=aside, at=at, fix=fix)
             return
+
+
+def _whole_turns(design: FlatbedPress, count: int) -> str:
+    """What lets the cylinder make so many revolutions per sheet."""
+    if design.spec.cylinder.gears is None:
+        return f"set cylinder.gear_ratio to {count}"
+    return f"give gear 3 {f'{count} times ' if count > 1 else ''}as many teeth as gear 4 (cylinder.gears.teeth)"
 
 
 # A share of the speed that is nothing but the rounding of the chains.
@@ -1473,7 +1480,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         ratio = self.spec.cylinder.ratio
         off = abs(ratio - max(1, round(ratio)))
         shown = Shown(ratio, None, "per sheet")
-        what, fix = "revolutions of the cylinder", f"set cylinder.gear_ratio to {max(1, round(ratio))}"
+        what, fix = "revolutions of the cylinder", _whole_turns(self, max(1, round(ratio)))
         aside = "a whole number is required" if off > 1e-9 else ""
         yield REGISTER.check("fail" if off > 1e-9 else "pass", what, off, 1e-9, shown=shown, aside=aside, fix=fix)
         yield from return_overlap(self)

@@ -1155,7 +1155,9 @@ class WideSwingDesign(Design):
             share = roller / least
             status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
             if status != "pass":
-                fix = f"take a roller of at most {safely_below(remedies.roller_for_curvature(self))} mm"
+                fix = "take a smaller roller"
+                if cam.contact[0][0] <= 0.0 and cam.contact[1][1] >= 1.0:  # else it also moves where the profile ends
+                    fix = f"take a roller of at most {safely_below(remedies.roller_for_curvature(self))} mm"
             what = f"roller radius, {words}"
             shown = against_curvature(roller, least, status)
             yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, aside=_left_out(cam), fix=fix)

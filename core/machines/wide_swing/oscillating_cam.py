@@ -551,7 +551,8 @@ def greatest_need(cam: OscillatingCam) -> Extreme:
     Raises
         NoSolution - for a loop, or where the roller touches nothing
     """
-    (one,), (other,) = extremes_of_parts([(partial(need_home, cam), True)], cam.contact, samples=128)
+    with np.errstate(invalid="ignore"):  # next to the place without torque, which counts by itself
+        (one,), (other,) = extremes_of_parts([(partial(need_home, cam), True)], cam.contact, samples=128)
     later = np.greater(other.value, one.value)
     value, place = np.where(later, other.value, one.value), np.where(later, other.place, one.place)
     value, place = np.maximum(value, 1.0), np.where(value < 1.0, 0.0, place)
@@ -575,7 +576,8 @@ def need_home(cam: OscillatingCam, k: Reals) -> Reals:
     span = cam.drive.crank_span
     if isinstance(cam.law, AimedLaw):
         way, torque = cam.law.law.push(k)
-        pace = way / torque
+        with np.errstate(divide="ignore"):
+            pace = way / torque
     else:
         view = cam.law.middle_view(k)
         pace = view.velocity / view.acceleration

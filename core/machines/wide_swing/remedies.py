@@ -278,9 +278,8 @@ def even_middle_angle(section: SwingSlider) -> float | None:
 def side_words(section: SwingSlider) -> str:
     """What brings device and roller to change sides together."""
     angle = even_middle_angle(section)
-    if angle is None:
-        return "reduce slider.mass"
-    return f"set slider.middle_angle to {angle:g}, where the slider is fastest at mid-swing"
+    turn = "" if angle is None else "turn slider.middle_angle until the slider is fastest at mid-swing, or "
+    return f"{turn}reduce slider.mass"  # no value: those that help were tried before
 
 
 def side_changes(section: SwingSlider) -> Iterator[tuple[Change, ...]]:

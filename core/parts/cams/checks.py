@@ -63,7 +63,11 @@ def pressure_angle_checks(cams: Sequence[DiscCam | FlatCam], limit: float, remed
 
 
 def undercut_checks(
-    cams: Sequence[DiscCam], larger: Callable[[], str] | None = None, *, plainly: str = LARGER
+    cams: Sequence[DiscCam],
+    larger: Callable[[], str] | None = None,
+    *,
+    plainly: str = LARGER,
+    profile_stays: bool = False,
 ) -> Iterator[Check]:
     """GL402 for each cam: roller against the minimum convex curvature, and the profile against itself.
 
@@ -71,6 +75,7 @@ def undercut_checks(
         cams : the cams
         larger : gives the words for a cam that is large enough, needed where one is not
         plainly : the words for a larger cam where no size is known
+        profile_stays : bool - with another roller; else the pitch curve does
     """
     for cam in cams:
         least, roller = cam.min_curvature_radius, cam.roller_radius
@@ -86,7 +91,11 @@ def undercut_checks(
             continue
         if status != "pass":
             most = ROLLER_SHARE * least.value
-            fix = larger() if larger and most <= 0.0 else f"take a roller of at most {safely_below(most)} mm"
+            if profile_stays:  # r <= q (rho + r) of its radius rho
+                most = ROLLER_SHARE / (1.0 - ROLLER_SHARE) * (least.value - roller)
+            fix = f"take a roller of at most {safely_below(most)} mm"
+            if most <= 0.0:
+                fix = larger() if larger else plainly
         shown = against_curvature(roller, least.value, status)
         yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
 

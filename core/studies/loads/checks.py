@@ -375,12 +375,12 @@ def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
     if found is None:  # resonance tells
         return
     status: Status = "fail" if found > allowed else "warn" if found > _NEAR_VIBRATION * allowed else "pass"
-    slowest = None if status == "pass" else vibrating.speed_limit  # it takes longer than all else of the vibration
+    what, most = "vibration of the output in its dwell", _NEAR_VIBRATION * allowed
+    slowest = None if status == "pass" else vibrating.speed_leaving(most)  # takes longer than all else of the vibration
     key = "loads.vibration.stiffness" if vibration.frequency is None else "loads.vibration.frequency"
     fix = f"raise {key}"
     if slowest:
         fix = f"lower the speed to at most {safely_below(slowest / design.speed_unit)} {design.speed_words}"
-    what, most = "vibration of the output in its dwell", _NEAR_VIBRATION * allowed
     yield codes.RESIDUAL_VIBRATION.check(status, what, found, allowed, unit, recommended=most, fix=fix)
 
 

@@ -484,14 +484,18 @@ class Vibrating:
     def speed_limit(self) -> float | None:
         """Minimum speed of the input at which a motion leaves more than is allowed [rad/s]."""
         allowed = self.section.allowed_residual
-        if allowed is None or not self.motions or not self.design.stands:
+        return None if allowed is None else self.speed_leaving(allowed)
+
+    def speed_leaving(self, amplitude: float) -> float | None:
+        """Minimum speed of the input at which a motion leaves more than an amplitude [deg or mm], in rad/s."""
+        if not self.motions or not self.design.stands:
             return None
         found = []
         for start, end in self.motions:
             slowest = (end - start) * self.frequency / _MOST_PERIODS
             ratios = np.linspace(_MOST_PERIODS, 1.0, round(_MOST_PERIODS - 1.0) * _PER_UNIT + 1)
             speeds = (end - start) * self.frequency / ratios
-            found.append(speed_limit(self._panelled(start, end, slowest), self.oscillator, speeds, allowed))
+            found.append(speed_limit(self._panelled(start, end, slowest), self.oscillator, speeds, amplitude))
         return min((speed for speed in found if speed is not None), default=None)
 
     def spectrum(self, count: int) -> tuple[Reals, Reals, Reals]:
