@@ -200,8 +200,6 @@ class Machine(OfMembers):
         made.before = self.members.known
         return made
 
-    alone = frozenset(("member-speed", "handover"))
-
     @classmethod
     def find_together(cls, designs: Sequence[Machine], names: Sequence[str]) -> None:
         """Members that differ, by their classes."""

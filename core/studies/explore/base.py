@@ -359,8 +359,11 @@ def _of_found(design: Design | Single, found: Single) -> Iterable[Check]:
 
 
 def _is_next_to_its_limit(check: Check) -> bool:
+    """Whether rounding may decide: within 1e-9 of a limit, next to 0 of the unit; a limit of 1e-9 is its own scale."""
     value, limit = check.value, check.limit
-    return value is not None and limit is not None and math.isclose(value, limit, rel_tol=_ROUNDING, abs_tol=_ROUNDING)
+    if value is None or limit is None:
+        return False
+    return math.isclose(value, limit, rel_tol=_ROUNDING, abs_tol=0.0 if limit else _ROUNDING)
 
 
 def checks_of(base: Base, codes: Sequence[str]) -> set[str]:

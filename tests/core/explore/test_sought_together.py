@@ -11,8 +11,9 @@ import pytest
 from factory import worked
 
 from gearlink.core.base.design import Design
+from gearlink.core.base.report import Check
 from gearlink.core.machines.cylindrical_cam import CylindricalCamDesign
-from gearlink.core.studies.explore.base import Base, single, singles
+from gearlink.core.studies.explore.base import Base, _is_next_to_its_limit, single, singles
 
 NAMES = ("max_pressure_angle", "min_curvature_radius")
 
@@ -68,3 +69,34 @@ def test_a_design_next_to_a_limit_is_judged_by_itself(monkeypatch: pytest.Monkey
     many = singles(base, changes(12), NAMES, list(base.codes))
     assert made[12:] == [{"cam.radius": 70.0}]
     assert many[10].values == alone.values
+
+
+def test_a_design_far_from_a_limit_that_is_all_but_0_is_judged_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The power identity of 1e-15 lay within 1e-9 of its limit, 1e-9: each design of a study was computed twice."""
+    made, design = [], Base.design
+
+    def counted(self: Base, changes: Any = ()) -> Design:
+        made.append(dict(changes))
+        return design(self, changes)
+
+    monkeypatch.setattr(Base, "design", counted)
+    asked = [[("loads.roller.width", 20.0 + i)] for i in (1, 2)]
+    many = singles(Base(worked("loaded_oscillating_cam"), "loads"), asked, (), ["GL601"])
+    assert [found.code for one in many for found in one.findings] == ["GL601"] * 2
+    assert made == [dict(each) for each in asked]
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "near"),
+    [
+        (0.0, 1e-9, False),
+        (1e-9, 1e-9, True),
+        (1e-12, 0.0, True),
+        (1e-6, 0.0, False),
+        (40.0 + 1e-8, 40.0, True),
+        (40.001, 40.0, False),
+    ],
+)
+def test_what_is_next_to_a_limit(value: float, limit: float, near: bool) -> None:
+    """By 1e-9 of the larger of both, next to 0 of the unit."""
+    assert _is_next_to_its_limit(Check("GL1", "c", "pass", "w", value, limit)) is near
