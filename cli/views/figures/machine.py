@@ -396,5 +396,5 @@ def _register(design: Any) -> Figure:
     style.curves(axes, "standard deviation [mm]", "")
     panels.heading(axes, "What gives most to the register at the print")
     axes.barh(np.arange(len(order)), sigma[order], color=style.BLUE)
-    axes.set_yticks(np.arange(len(order)), [words[i] for i in order], fontsize=8)
+    panels.bars_named(axes, [words[i] for i in order], 8)
     return made

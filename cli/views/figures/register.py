@@ -69,7 +69,9 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     order = sorted(costs[0], key=lambda name: -max(float(cost[name].max()) for cost in costs))
     for name, color in zip(order, _COLORS, strict=False):
         for cost, line in zip(costs, _LINES, strict=False):
-            axes.plot(degrees, cost[name], color=color, linestyle=line, label=name if line == "-" else None)
+            axes.plot(
+                degrees, cost[name], color=color, linestyle=line, label=panels.abridged(name) if line == "-" else None
+            )
     axes.set_xlim(degrees[0], degrees[-1])
     shown = f", the {len(_COLORS)} largest of {len(order)}" if len(order) > len(_COLORS) else ""
     dashed = "; dashed: torque −1" if len(costs) > 1 else ""
@@ -116,7 +118,7 @@ def _sources(axes: Axes, design: RegisterDesign) -> None:
         color = (style.BLUE, style.SKY)[i]
         label = name.strip() or None
         axes.barh(places, [width[row.source] for row in order], height=height, color=color, label=label)
-    axes.set_yticks(range(len(order)), [row.source for row in order], fontsize=7)
+    panels.bars_named(axes, [row.source for row in order], 7)
     if len(found) > 1:
         panels.legend_under_heading(axes, "By source", 2)
     else:

@@ -73,7 +73,7 @@ def _course(axes: Axes, course: Course) -> None:
     axes.set_xlim(places[0], places[-1])
     if over == "deg" and course.period == 360.0:
         style.full_turn(axes)
-    panels.legend_under_heading(axes, f"{course.output.replace('_', ' ')}: designs as manufactured over the cycle", 4)
+    panels.legend_under_heading(axes, f"{_words(course.output)}: designs as manufactured over the cycle", 4)
 
 
 def _closed(course: Course) -> tuple[Any, Any]:
@@ -88,7 +88,7 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     values = study.result.values[name]
     values = values[~np.isnan(values)]
     unit = study.units[name]
-    words = name.replace("_", " ")
+    words = _words(name)
     panels.curves(axes, f"{words} [{unit}]" if unit != "1" else words, "density")
     axes.ticklabel_format(axis="x", useOffset=False)
     bins = min(_MOST_BINS, math.ceil(2.0 * math.cbrt(len(values))))  # more show the few samples, not the density
@@ -129,6 +129,11 @@ def _numbers_that_fit(axes: Axes) -> None:
     panels.few_ticks(axes.xaxis, max(2, min(6, _LETTERS // (2 + max(map(len, words))))))
 
 
+def _words(name: str) -> str:
+    """A quantity or an output in words, as long as fits above a panel."""
+    return panels.abridged(name.replace("_", " "))
+
+
 def _headline(study: ToleranceStudy, name: str) -> str:
     """The name of a quantity, its deviation, and its capability where it has a limit."""
     from gearlink.core.studies.tolerance_study.statistics import capabilities
@@ -137,7 +142,7 @@ def _headline(study: ToleranceStudy, name: str) -> str:
     unit = "" if study.units[name] == "1" else f" {study.units[name]}"
     capability = capabilities(spread, *study.limits(name))[1]
     able = "" if capability is None else f", Cpk {style.number(capability.value, 3)}"
-    return f"{name.replace('_', ' ')}: σ {style.number(spread.sigma.value, 3, scale=0.0)}{unit}{able}"
+    return f"{_words(name)}: σ {style.number(spread.sigma.value, 3, scale=0.0)}{unit}{able}"
 
 
 def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
@@ -157,7 +162,7 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     places = range(len(shares))
     bars = axes.barh(places, [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
     axes.bar_label(bars, [f"{100.0 * row[1]:.0f} %" for row in shares], padding=2.0, fontsize=7)
-    axes.set_yticks(places, [row[0] for row in shares])
+    panels.bars_named(axes, [row[0] for row in shares])
     axes.set_xlim(0.0, 1.12 * axes.get_xlim()[1])
 
 
@@ -202,14 +207,14 @@ def _panel(axes: Axes, study: ToleranceStudy, name: str, rows: list[tuple[str, f
     unit = study.units[name]
     least = 1e-6 * max(abs(end) for _, *ends in rows for end in ends)
     shown = [row for row in rows[:_MOST_BARS] if max(abs(row[1]), abs(row[2])) > least][::-1]
-    words = name.replace("_", " ")
+    words = _words(name)
     panels.curves(axes, f"change of {words}" + ("" if unit == "1" else f" [{unit}]"), "")
     looks = (1, style.SKY, "at the lower limit", 0.7), (2, style.ORANGE, "at the upper limit", 0.42)
     for side, color, label, height in looks:
         values = [row[side] for row in shown]
         axes.barh(range(len(shown)), values, color=color, height=height, label=label, gid=label)
     axes.axvline(0.0, color=style.BLACK, linewidth=0.9)
-    axes.set_yticks(range(len(shown)), [row[0] for row in shown])
+    panels.bars_named(axes, [row[0] for row in shown])
     for i, limit in enumerate(one for one in study.limits(name) if one is not None):
         once = None if i else "limit"
         axes.axvline(limit - nominal, color=style.RED, linewidth=1.4, linestyle=style.CHAIN, label=once)

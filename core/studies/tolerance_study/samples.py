@@ -360,7 +360,8 @@ def effects(made: Problem, names: list[str]) -> tuple[Effects, dict[str, float]]
     """What each tolerance does by itself, all others nominal.
 
     Returns
-        changes : by quantity, the widest first - the source, the change at its lower and at its upper limit
+        changes : by quantity that the samples have, the widest first - the source, the change at its lower and at its
+            upper limit
         nominal : by quantity
     Notes
         The play of a pin acts in the direction of the smallest and of the largest value, of 24.
@@ -376,6 +377,7 @@ def effects(made: Problem, names: list[str]) -> tuple[Effects, dict[str, float]]
             owner.append(source.key)
     values = evaluated(made, made.offsets(shifts)).quantities
     found: dict[str, list[tuple[str, float, float]]] = {}
+    names = [name for name in names if name in values]
     for name in names:
         change = np.asarray(values[name], dtype=float) - float(values[name][0])
         rows = []

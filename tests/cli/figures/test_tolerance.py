@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
 import numpy as np
 import pytest
-from factory import design
+from factory import design, worked
 from matplotlib.figure import Figure
 from sheets import fits_a_page, meetings, panel, placed_sheet, sheet, tagged
 
 from gearlink.cli.views.figures import tolerance
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.drawing.placing import settled
+from gearlink.cli.views.figures.write import panels
 from gearlink.core.studies.tolerance_study.samples import Course
 
 SMALL = {"tolerance__samples": 128}
@@ -52,6 +54,41 @@ def test_percentiles_over_the_cycle_are_those_of_the_table() -> None:
     assert np.asarray(middle.get_ydata()) == pytest.approx(np.append(table["q50"], table["q50"][0]), rel=1e-12)
     begins = next(line for line in axes.lines if line.get_label() == "the dwell begins")
     assert begins.get_xdata()[0] == pytest.approx(224.849, abs=0.01)
+
+
+LONG = "x" * 90
+"""A file may name its links so."""
+WATT: dict[str, Any] = {
+    "name": "watt",
+    "tolerance": {"sources": {f"links.{LONG}[2]": {"plus_minus": 0.02}, "links.arm[2]": {"plus_minus": 0.02}}},
+    "register": {"radius": 50},
+}
+
+
+def _watt() -> dict[str, Any]:
+    """The Watt six-bar with tolerances, its output link with a long name."""
+    return json.loads(json.dumps(worked("planar_watt") | WATT).replace('"output"', f'"{LONG}"'))
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("drawn", ["register", "tornado"])
+def test_long_names_leave_the_panels_their_width(drawn: str) -> None:
+    """Their panels had no width: names beside bars, in legends and headings took all of the page."""
+    figure = panels("register", design(_watt(), command="register")) if drawn == "register" else (
+        tolerance.draw_tornado(design(_watt()))
+    )  # fmt: skip
+    settled(figure)
+    assert min(axes.get_position().width for axes in figure.axes) > 0.2
+    assert not [each for each in meetings(figure) if "beside the page" in each]
+
+
+@pytest.mark.slow
+def test_a_tornado_leaves_out_what_the_samples_do_not_have() -> None:
+    """The quick-return ratio of an output, which is not computed for many designs at once, was a fault."""
+    made = design(_watt(), command="tolerance")
+    assert f"{LONG}.quick_return_ratio" in made.problem.names
+    assert tolerance.draw_tornado(design(_watt())).axes
 
 
 @pytest.mark.parametrize(

@@ -131,12 +131,27 @@ def heading(axes: Axes, title: str) -> None:
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
 
 
+_LONGEST_NAME = 32
+"""Characters beside a bar or in a legend: longer ones leave a panel no width."""
+
+
+def abridged(name: str, most: int = _LONGEST_NAME) -> str:
+    """A name, or the first and the last letters of a long one."""
+    half = most // 2
+    return name if len(name) <= most else f"{name[: half - 1]}…{name[-half:]}"
+
+
+def bars_named(axes: Axes, names: Sequence[str], size: float | None = None) -> None:
+    """Names to the left of bars at 0, 1, 2 ..."""
+    axes.set_yticks(range(len(names)), [abridged(name) for name in names], fontsize=size)
+
+
 def legend_above(axes: Axes, columns: int = 5) -> None:
     """The legend above the right end of the panel, outside the curves; below the heading where they would meet."""
     labels = axes.get_legend_handles_labels()[1]
     title = str(axes.get_title(loc="left"))
     room = _LINE * _share_of_page(axes)
-    columns = next((n for n in range(columns, 1, -1) if _width_of_legend(labels, n) <= room), 1)
+    columns = _columns_within(room, labels, columns)
     rows = max(1, math.ceil(len(labels) / columns))
     if title and 1.4 * len(title) + _width_of_legend(labels, columns) > room:
         axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0 + 12.0 * (rows - 1))
@@ -155,6 +170,11 @@ def _width_of_legend(labels: Sequence[str], columns: int) -> int:
     return sum(max(len(label) for label in labels[i:j]) + 9 for i, j in pairwise(ends) if i < j)
 
 
+def _columns_within(room: float, labels: Sequence[str], most: int) -> int:
+    """Columns of a legend that fit into so many characters across."""
+    return next((n for n in range(most, 1, -1) if _width_of_legend(labels, n) <= room), 1)
+
+
 def _share_of_page(axes: Axes) -> float:
     """Part of the width of A4 that the panel's columns of the grid have, its margins not counted."""
     place = axes.get_subplotspec()
@@ -169,6 +189,7 @@ def _share_of_page(axes: Axes) -> float:
 
 def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
     """The heading of a panel, and between it and the curves a legend in as many rows as it needs."""
+    columns = _columns_within(_LINE * _share_of_page(axes), axes.get_legend_handles_labels()[1], columns)
     legend = axes.legend(
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),

@@ -153,7 +153,7 @@ def draw(design: Any) -> Figure:
         axes = [made.add_subplot(grid[row, column]) for row in range(len(course.rates))]
         for order, each in enumerate(axes):
             _panel(each, course, order, last=order == len(axes) - 1)
-        panels.heading(axes[0], course.name)
+        panels.heading(axes[0], panels.abridged(course.name, 64))
         if course.bands:
             panels.shade(axes, course.bands)
         columns.append(axes)
