@@ -306,14 +306,6 @@ def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]
         yield CAM_UNDERCUT.check("warn", what, roller / estimate, 1.0, shown=shown, aside=aside, fix=fix)
 
 
-def _shaft_remedy(design: WideSwingDesign) -> str:
-    """A smaller roller where its profile does not bear it either, else a larger distance first."""
-    roller, least = remedies.roller_of_profile(design), safely_above(remedies.center_distance(design))
-    if roller is not None:
-        return f"take a roller of at most {safely_below(roller)} mm"
-    return f"set cam.center_distance to at least {least} mm"
-
-
 def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
     """The cam's arc about the dwells may reach over the rocker's axis."""
     place, roller = design.section.center_distance, design.section.roller_radius
@@ -1194,7 +1186,8 @@ class WideSwingDesign(Design):
             bottom = cam.min_radius - section.roller_radius
             room = bottom - shaft
             status: Status = "pass"
-            fix, recommended = _shaft_remedy(self), None
+            fix = f"set cam.center_distance to at least {safely_above(remedies.center_distance(self))} mm"
+            recommended = None
             if room <= 0.0:
                 status = "fail"
             elif cam.sense > 0 and bottom < HUB * shaft * (1.0 - _ROUNDING):

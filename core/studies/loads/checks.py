@@ -191,7 +191,7 @@ def motor_speed(design: LoadsDesign) -> Iterator[Check]:
     mean, asked = 0.5 * sum(running.range), abs(design.speed) / RPM
     off, name = abs(mean / asked - 1.0), codes.MOTOR_TORQUE.checks[1]
     status: Status = "fail" if off > _OTHER_SPEED else "warn" if off > _NEAR_SPEED else "pass"
-    ratio = motor.ratio * mean / asked
+    ratio = None if status == "pass" else running.ratio_of_speed
     yield codes.MOTOR_TORQUE.check(
         status,
         "deviation of the speed by the motor from that of the file",
@@ -200,7 +200,7 @@ def motor_speed(design: LoadsDesign) -> Iterator[Check]:
         name=name,
         recommended=_NEAR_SPEED,
         aside=f"motor {short(mean)} 1/min, file {short(asked)} 1/min",
-        fix=f"set loads.motor.ratio near {short(ratio)}",
+        fix=f"set loads.motor.ratio near {short(ratio)}" if ratio else "take a stronger motor, or one of less slip",
         note="forces, lives and vibration are those of the speed of the file" if status != "pass" else "",
     )
 

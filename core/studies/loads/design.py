@@ -836,8 +836,9 @@ def _stronger_motor(design: LoadsDesign) -> Iterator[Remedy]:
 
 def _other_ratio(design: LoadsDesign) -> Iterator[Remedy]:
     """The ratio with which the motor runs the input at the speed of the file."""
-    motor, mean = design.section.motor, 0.5 * sum(design.running.range)
-    ratio = motor.ratio * mean / (abs(design.speed) / RPM)
+    ratio = design.running.ratio_of_speed
+    if ratio is None:
+        return
     yield from ((("loads.motor.ratio", float(f"{ratio:.{digits}g}")),) for digits in (2, 3))
 
 

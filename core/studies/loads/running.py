@@ -94,6 +94,19 @@ class Running:
         slip = (motor.no_load_speed - motor.rated_speed) * RPM
         return float(motor.rated_torque / slip * motor.ratio**2)
 
+    @property
+    def ratio_of_speed(self) -> float | None:
+        """Ratio with which the motor runs the input at the speed of the file; None where it is too weak for that.
+
+        k r^2 (w_0/r - w) = T, the greater root r; w_0 and k without load and of the motor's slope, T the mean torque
+        """
+        motor = self.motor
+        assert motor is not None, "needed only with a motor"
+        free, ratio, wanted = motor.no_load_speed * RPM, motor.ratio, abs(self.design.speed)
+        torque = self.slope * (free / ratio - 0.5 * sum(self.range) * RPM)
+        root = free**2 - 4.0 * wanted * torque * ratio**2 / self.slope
+        return 0.5 * (free + math.sqrt(root)) / wanted if root > 0.0 else None
+
     @cached_property
     def motor_run(self) -> MotorRun:
         """The run with the motor, over an angle that rises with time."""

@@ -15,6 +15,7 @@ from gearlink.core.base.report import Check
 
 SWING_SLIDER: dict[str, Any] = {"slider__crank": 300, "cycle_angle": 146, "cam__roller_radius": 9}
 WARNED: dict[str, Any] = {"loads__vibration__allowed_residual": 0.1165}
+NEAR_SHAFT: dict[str, Any] = {"cam__center_distance": 66.25, "slider__mass": 7.17}
 TANGENT: dict[str, Any] = {
     "follower__roller_radius": 26.34,
     "profile__base_radius": 15.61,
@@ -32,6 +33,7 @@ def found(base: Any, command: str, name: str, **keys: Any) -> Check:
     ("base", "command", "name", "keys", "key"),
     [
         pytest.param("loaded_wide_swing", "loads", "residual-vibration", WARNED, "speed", marks=pytest.mark.slow),
+        ("wide_swing_slider_cam", "swing", "shaft-clearance", NEAR_SHAFT, "cam__center_distance"),
         ("tangent_cam", "cam", "cam-undercut", TANGENT, "follower__roller_radius"),
         ("tangent_cam", "cam", "cam-undercut", TANGENT | {"follower__roller_radius": 21.0}, "follower__roller_radius"),
     ],
@@ -39,9 +41,10 @@ def found(base: Any, command: str, name: str, **keys: Any) -> Check:
 def test_what_warns_passes_with_the_value_of_its_fix(
     base: str, command: str, name: str, keys: dict[str, Any], key: str
 ) -> None:
-    """They named the speed that leaves all that is allowed, and the roller of a pitch curve that moves with it."""
+    """They named the speed that leaves all that is allowed, the roller of a pitch curve that moves with it, and a roller
+    that leaves the shaft as near as it was."""
     check = found(base, command, name, **keys)
-    (value,) = re.findall(r"at most (\d+\.?\d*)", str(check.fix))
+    (value,) = re.findall(r"at (?:most|least) (\d+\.?\d*)", str(check.fix))
     assert check.status == "warn"
     assert found(base, command, name, **(keys | {key: float(value)})).status == "pass"
 
@@ -72,3 +75,17 @@ def test_a_roller_that_moves_the_end_of_its_profile_is_not_named() -> None:
     keys = {"swing": 171.9, "drive__rocker": 136.6, "shaft__natural_frequency": 64.04}
     check = found("wide_swing_slider_drive", "swing", "cam-undercut", **keys)
     assert (check.status, check.fix) == ("warn", "take a smaller roller")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("rated", "ratio"), [(1300, True), (1100, True), (585.5, False)])
+def test_a_motor_of_much_slip_is_given_the_ratio_of_its_speed_under_load(rated: float, ratio: bool) -> None:
+    """The ratio was that of the speed without the slip that it changes: a motor of 585.5 1/min ran slower with it."""
+    keys = {"loads__motor__rated_speed": rated, "loads__motor__ratio": 14}
+    check = found("loaded_six_bar", "loads", "motor-speed", **keys)
+    assert check.status == "fail"
+    values = re.findall(r"loads.motor.ratio (?:near|to) (\d+\.?\d*)", str(check.fix))
+    assert bool(values) is ratio
+    for value in values:
+        keys["loads__motor__ratio"] = float(value)
+        assert found("loaded_six_bar", "loads", "motor-speed", **keys).status == "pass"
