@@ -41,8 +41,7 @@ def found(base: Any, command: str, name: str, **keys: Any) -> Check:
 def test_what_warns_passes_with_the_value_of_its_fix(
     base: str, command: str, name: str, keys: dict[str, Any], key: str
 ) -> None:
-    """They named the speed that leaves all that is allowed, the roller of a pitch curve that moves with it, and a roller
-    that leaves the shaft as near as it was."""
+    """They named the speed that leaves all that is allowed, and a roller that moves the pitch curve, or no shaft."""
     check = found(base, command, name, **keys)
     (value,) = re.findall(r"at (?:most|least) (\d+\.?\d*)", str(check.fix))
     assert check.status == "warn"
