@@ -326,17 +326,18 @@ def least_width(pair: GearPair, carried: Carried) -> tuple[float, float, float] 
 def _safe(pair: GearPair, carried: Carried, width: int) -> tuple[float, float] | None:
     """The lesser safeties with a width; None where one is below what is required, or is not known."""
     data = carried.data(pair, float(width))
-    try:
-        contact, root = data.safety_pitting, data.safety_bending
-    except NoSolution:
-        return None
-    if contact is None or root is None:
-        return None
-    found = [[each for each in both if each is not None] for both in (contact, root)]
-    if min(map(len, found)) < 2:
-        return None
-    pitting, bending = min(found[0]), min(found[1])
-    return (pitting, bending) if pitting >= carried.required.pitting and bending >= carried.required.bending else None
+    found = []
+    # The flanks first: they decide most widths, in half the time that both take.
+    for name, least in (("safety_pitting", carried.required.pitting), ("safety_bending", carried.required.bending)):
+        try:
+            both = getattr(data, name)
+        except NoSolution:
+            return None
+        if both is None or None in both or min(both) < least:
+            return None
+        found.append(min(both))
+    pitting, bending = found
+    return pitting, bending
 
 
 def carrying(task: PairTask, carried: Carried) -> list[Carrying]:
