@@ -6,8 +6,10 @@ may cross a diagonal more than once, and does.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from itertools import compress, pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -134,6 +136,27 @@ class BlockingContour:
             return _roots_of(lambda first: value_of(line, at(first)), grid, values)
 
         return [(line, root) for line in lines for root in roots(line)]
+
+    def ways(self, shift_sum: float, first: float) -> Callable[[Line, float], float]:
+        """Of a line the way from x_1 to where it crosses a diagonal nearest, searched as far as is said, else inf.
+
+        Raises
+            NoSolution - where the shift sum leaves no mesh
+        """
+        at, grid = self._data_on(shift_sum), self._on(shift_sum)
+        designs = cache(lambda k: at(grid[k]))
+        steps = sorted((max(low - first, first - high, 0.0), k) for k, (low, high) in enumerate(pairwise(grid)))
+
+        def way(line: Line, most: float) -> float:
+            value, found = cache(lambda k: value_of(line, designs(k))), math.inf
+            for far, k in steps:
+                if far >= min(most, found):
+                    break
+                roots = _roots_of(lambda x: value_of(line, at(x)), grid[k : k + 2], [value(k), value(k + 1)])
+                found = min((abs(root - first) for root in roots), default=found)
+            return found
+
+        return way
 
     @cached_property
     def _diagonals(self) -> list[tuple[float, list[tuple[Line, float]], list[Pair]]]:

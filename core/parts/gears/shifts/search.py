@@ -182,13 +182,16 @@ def _margin(data: GearData) -> float:
     total = sum(data.pair.profile_shift)
     first = data.pair.profile_shift[0]
     low, high = contour.reach(total)
-    room, ways = min(first - low, high - first), []
+    room, way = min(first - low, high - first), contour.ways(total, first)
     lines = [line for line in contour.lines if line.name.startswith(_BLOCKING)]
-    crossed = contour.crossed(lines, total)
-    for line in lines:
-        way = min((abs(root - first) for each, root in crossed if each is line), default=room)
-        ways.append(way if _good(line, data) else -way)
-    return min(ways)
+    if bad := [line for line in lines if not _good(line, data)]:
+        return -max(found if (found := way(line, math.inf)) < math.inf else room for line in bad)
+    least = math.inf
+    for line in lines:  # one that is not met counts as far as lines are traced
+        known = least <= room
+        nearest = way(line, least if known else math.inf)
+        least = min(least, nearest if known or nearest < math.inf else room)
+    return least
 
 
 def _good(line: Line, data: GearData) -> bool:

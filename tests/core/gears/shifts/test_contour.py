@@ -157,3 +157,18 @@ def test_the_nearest_limits_are_those_of_the_margins() -> None:
     name, way = above
     assert way == min(more for key, (_, more) in found.margins.items() if more is not None and found.line(key).limits)
     assert found.line(name).limits
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("teeth", [(20, 60), (9, 31), (25, 25), (7, 14), (20, -60)])
+@pytest.mark.parametrize("shift", [(0.1, 0.1), (0.8, -0.4), (-0.3, 0.5), (0.45, 0.0)])
+def test_the_way_to_the_nearest_crossing_is_that_of_all_crossings(
+    teeth: tuple[int, int], shift: tuple[float, float]
+) -> None:
+    """To the last bit: the same steps are refined in the same way, those that are farther are left."""
+    found = contour(teeth, shift)
+    crossed, way = found.crossed(found.lines, sum(shift)), found.ways(sum(shift), shift[0])
+    for line in found.lines:
+        nearest = min((abs(first - shift[0]) for each, first in crossed if each is line), default=math.inf)
+        assert way(line, math.inf) == nearest
+        assert way(line, 0.3) == nearest or nearest >= 0.3 <= way(line, 0.3)
