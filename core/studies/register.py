@@ -396,6 +396,11 @@ class RegisterDesign(Design):
             return self.sampled_band
         return [float(one.band.max()) for one in self.budgets]
 
+    @property
+    def kept(self) -> list[float]:
+        """The band that is judged [mm]: by `register.method` rss not more than the sources add up to."""
+        return self.band if self.section.method != "rss" else [float(one.kept.max()) for one in self.budgets]
+
     @cached_property
     def sampled_places(self) -> Reals:
         """Input angles at which samples are closed [rad], some of the stretch with its ends among them."""
@@ -491,7 +496,7 @@ class RegisterDesign(Design):
         limit = self.section.tolerance
         if limit is None:
             return
-        band, worst = max(self.band), max(self.worst)
+        band, worst = max(self.kept), max(self.worst)
         status: Status = "fail" if band > limit else "warn" if worst > limit else "pass"
         fix = "" if status == "pass" else self._tighter(limit, at_worst=status == "warn")
         share = ALL if self.section.method == "worst" else MOST
@@ -502,7 +507,7 @@ class RegisterDesign(Design):
         start = 0 if self.input_angles.size > 1 else None
         every = [self.contributions(self.input_angles, sign) for sign in SIGNS]
         if self.section.method == "mc" and not at_worst:
-            limit *= max(float(one.band.max()) for one in self.budgets) / max(self.band)
+            limit *= max(float(one.kept.max()) for one in self.budgets) / max(self.band)
         at_worst = at_worst or self.section.method == "worst"
         names, percent = tightened(every, start, self.correlations, limit, at_worst=at_worst)
         every_one = len(names) == len(every[0]) > 1

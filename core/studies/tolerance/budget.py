@@ -60,18 +60,23 @@ class Row:
 class Budget:
     """All sources together.
 
-    worst, rss, mean, most, band : (N,) arrays [mm] - sum of magnitudes, root of the sum of squares, what all machines
-    have alike, what sources within their limits and the normal band of the others add up to, and what 99.73 % of the
-    machines keep; at : int - where `band` is largest
+    worst, rss, mean, band : (N,) arrays [mm] - sum of magnitudes, root of the sum of squares, what all machines have
+    alike, and what 99.73 % of them keep by a normal law; most : (N,) array [mm] - what sources within their limits and
+    the normal band of the others add up to; at : int - where `band` is largest
     """
 
     worst: Reals
     rss: Reals
     mean: Reals
-    most: Reals
     band: Reals
+    most: Reals
     at: int
     rows: tuple[Row, ...]
+
+    @property
+    def kept(self) -> Reals:
+        """What 99.73 % of the machines surely keep: few sources are no normal sum, and end before 3 sigma of it."""
+        return np.minimum(self.band, self.most)
 
 
 def budget(
@@ -92,7 +97,7 @@ def budget(
         The gain's difference is taken before its magnitude: both ends of a stretch have the same cause. The error of a
         cam's profile has another one at each: there both count, at worst as a sum, at random as a root of squares.
         Few sources are no normal sum: uniform sizes, or a pin that touches its hole, add up to less than 3 sigma of
-        them. The band is the less of the normal one and of `most`, which is the worst case where all parts keep their
+        them. What they keep is the less of the normal band and of `most`, the worst case where all parts keep their
         limits: |X| <= sum |g - g0| limit of those that do, plus the band of those that do not.
     Example
         >>> frame = Contribution("frame", np.array([1.0, -2.0]), 0.01, 0.003)
@@ -111,7 +116,7 @@ def budget(
     means = np.array([one.mean for one in contributions])[:, None] * np.real(gains)
     mean, rss = means.sum(axis=0), _root(squares)
     most = _most(contributions, limits[:, None] * magnitudes, means, gains, correlations or {})
-    band = np.minimum(normal_band(mean, rss), most)
+    band = normal_band(mean, rss)
     at = int(np.argmax(band))
     whole = float(squares[:, at].sum())
     rows = tuple(
@@ -126,7 +131,7 @@ def budget(
         )
         for one, magnitude, spread, square, mean in zip(contributions, magnitudes, spreads, squares, means, strict=True)
     )
-    return Budget(worst, rss, mean, most, band, at, rows)
+    return Budget(worst, rss, mean, band, most, at, rows)
 
 
 def _squares(
@@ -176,7 +181,7 @@ def tightened(
 
     Parameters
         every : contributions as for `budget`, of several budgets that are all to keep it
-        limit : float [mm], above 0 - of the worst case or of the band, which are above it
+        limit : float [mm], above 0 - of the worst case or of what most machines keep, which are above it
     Returns
         names, percent : float - of their limits: two IT grades finer at most, unless it takes all sources
     """
@@ -184,7 +189,7 @@ def tightened(
     def error(names: Sequence[str], percent: float) -> float:
         share = percent / 100.0
         found = [budget([_scaled(one, share, names) for one in each], start, correlations) for each in every]
-        return max(float((one.worst if at_worst else one.band).max()) for one in found)
+        return max(float((one.worst if at_worst else one.kept).max()) for one in found)
 
     names = list(dict.fromkeys(one.source for each in every for one in each))
     names.sort(key=lambda name: error([name], _FINER))

@@ -49,12 +49,25 @@ def test_a_band_does_not_depend_on_sign_or_unit() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 12])
-def test_a_band_ends_where_its_sources_do(count: int) -> None:
+def test_what_most_machines_keep_ends_where_the_sources_do(count: int) -> None:
     """3 sigma of n uniform sizes is sqrt(3 n) of their limit: more than all n together up to n = 3."""
     sources = [Contribution(f"{i}", np.array([1.0]), 0.01, 0.01 / math.sqrt(3.0)) for i in range(count)]
     found = budget(sources, None)
-    assert found.band[0] == pytest.approx(0.01 * min(count, math.sqrt(3.0 * count)), rel=1e-14)
-    assert found.band[0] <= found.worst[0]
+    assert found.band[0] == pytest.approx(0.01 * math.sqrt(3.0 * count), rel=1e-14)
+    assert found.kept[0] == pytest.approx(0.01 * min(count, math.sqrt(3.0 * count)), rel=1e-14)
+
+
+def test_a_register_that_no_machine_exceeds_does_not_fail() -> None:
+    """3 sigma of one pin that touches its hole are more than half its clearance."""
+    given = {"at": 100.0, "radius": 40.0}
+    worst, band = (
+        max(getattr(register({"pins.A": {"clearance": [0.0, 0.02]}}, **given), name)) for name in ("worst", "band")
+    )
+    assert worst < band
+    for limit, status in ((1.001 * worst, "pass"), (0.999 * worst, "fail")):
+        made = register({"pins.A": {"clearance": [0.0, 0.02]}}, tolerance=limit, **given)
+        (check,) = made.check("register-budget")
+        assert (check.status, check.value) == (status, pytest.approx(worst, rel=1e-12))
 
 
 def test_what_exceeds_its_limit_has_its_own_band_beside_the_limits_of_the_others() -> None:
@@ -62,7 +75,7 @@ def test_what_exceeds_its_limit_has_its_own_band_beside_the_limits_of_the_others
     loose = [Contribution(f"l{i}", np.array([1.0]), 0.01, 0.02 / 3.0, keeps=False) for i in range(2)]
     even = Contribution("even", np.array([1.0]), 0.09, 0.09 / math.sqrt(3.0))
     rho = {("l0", "l1"): 0.5, ("l1", "l0"): 0.5, ("even", "l0"): 0.2, ("l0", "even"): 0.2}
-    (band,) = budget([*loose, even], None, rho).band
+    (band,) = budget([*loose, even], None, rho).kept
     assert band == pytest.approx(0.09 + 0.02 * math.sqrt(3.0), rel=1e-14)
     chance = np.random.default_rng(3)
     x, y, z = chance.multivariate_normal(np.zeros(3), [[1, 0.5, 0.2], [0.5, 1, 0], [0.2, 0, 1]], 2**18).T
@@ -84,7 +97,7 @@ def test_parts_keep_their_limits_where_the_process_is_capable(law: dict[str, Any
     made = register({"links.crank": {"plus_minus": 0.02} | law, "pins.A": {"clearance": [0.0, 0.02]}}, at=100.0)
     one = {each.source: each for each in made.contributions(made.input_angles, 1)}
     assert (one["links.crank"].keeps, one["pins.A"].keeps) == (keeps, True)
-    assert (made.band[0] <= made.worst[0]) is (law.get("cp") != 0.5)
+    assert (made.kept[0] <= made.worst[0]) is (law.get("cp") != 0.5)
 
 
 @pytest.mark.parametrize(
