@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Design, Outline, geometry
@@ -13,12 +14,12 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine.design import Machine
 from gearlink.core.machines.machine.speeds import speed_changes
+from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget
 
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.loads import MachineLoads
     from gearlink.core.machines.machine.spec import MachineRegister, MachineSpec
     from gearlink.core.studies.register import RegisterDesign
-    from gearlink.core.studies.tolerance.budget import Budget
 
 _ROOT_2 = math.sqrt(2.0)
 
@@ -29,14 +30,21 @@ class Share(NamedTuple):
     Fields
         gain : float - its share in the chain, signed
         angle : float [deg] - its own input there
-        budget : Budget - its own at that place, for the torque sign with the larger band
+        parts : of its sources there times the gain, for the torque sign with the larger band
+        correlations : of them, by pairs
         wind_up : float [mm] - what the main shaft's wind-up moves its output, times the gain
     """
 
     gain: float
     angle: float
-    budget: Budget
+    parts: tuple[Contribution, ...]
+    correlations: Mapping[tuple[str, str], float]
     wind_up: float
+
+    @property
+    def budget(self) -> Budget:
+        """Of the member alone."""
+        return budget(self.parts, None, self.correlations)
 
 
 class RegisterOfMachine(Design):
@@ -76,6 +84,8 @@ class RegisterOfMachine(Design):
     def _share(self, name: str, gain: float) -> Share:
         import numpy as np
 
+        from gearlink.core.studies.register import SIGNS
+
         place = self.design.members[name]
         angle = math.radians(self.section.at - self.design.phases[self.spec.root(name)])
         u, rate = place.input(np.array([angle]), 1)
@@ -86,11 +96,15 @@ class RegisterOfMachine(Design):
                 message = f"{name} stands in register.chain"
                 raise MissingSection(message, key="tolerance.sources", fix="give it tolerance: {sources: {...}}")
             register: RegisterDesign = member.kind.design("register", self._spec_of(name, float(own[0]) / place.scale))  # type: ignore[assignment]
-            worse = max(register.budgets, key=lambda each: float(each.band.max()))
+            sign = max(SIGNS, key=lambda each: float(register.budgets[SIGNS.index(each)].band.max()))
+            parts = tuple(
+                replace(one, gain=gain * one.gain) for one in register.contributions(register.input_angles, sign)
+            )
             moved = float(
                 register.output(own)(register.mechanism(own), None)[1][0] * rate[0]
             )  # mm per rad of the machine
-        return Share(gain, float(own[0]) / place.scale, worse, gain * moved * self._twist(name))
+        wind_up = gain * moved * self._twist(name)
+        return Share(gain, float(own[0]) / place.scale, parts, register.correlations, wind_up)
 
     def _spec_of(self, name: str, angle: float) -> Any:
         """The spec of a member that looks at its register where its input stands [deg]."""
@@ -113,35 +127,43 @@ class RegisterOfMachine(Design):
 
     # Results
 
+    @cached_property
+    def whole(self) -> Budget:
+        """Of all sources of all members, which vary each by themselves."""
+        return budget(self._parts, None, self._correlations)
+
+    @cached_property
+    def _parts(self) -> list[Contribution]:
+        named = ((name, one) for name, each in self.shares.items() for one in each.parts)
+        return [replace(one, source=_of_member(one.source, name)) for name, one in named]
+
+    @property
+    def _correlations(self) -> dict[tuple[str, str], float]:
+        return {
+            (_of_member(one, name), _of_member(other, name)): rho
+            for name, each in self.shares.items()
+            for (one, other), rho in each.correlations.items()
+        }
+
     @property
     def worst(self) -> float:
-        """Maximum error where all sources of all members add up [mm]."""
-        return sum(abs(each.gain) * float(each.budget.worst.max()) for each in self.shares.values())
+        """Error where all sources of all members add up [mm]."""
+        return float(self.whole.worst[0])
 
     @property
     def rss(self) -> float:
-        """Standard deviation of the error [mm]: members scatter by themselves."""
-        return math.sqrt(sum((each.gain * float(each.budget.rss.max())) ** 2 for each in self.shares.values()))
+        """Standard deviation of the error [mm]."""
+        return float(self.whole.rss[0])
 
     @property
     def mean(self) -> float:
         """What all machines have alike [mm]."""
-        at = ((each.gain, float(each.budget.mean[each.budget.at])) for each in self.shares.values())
-        return sum(gain * mean for gain, mean in at)
+        return float(self.whole.mean[0])
 
     @property
     def band(self) -> float:
         """What 99.73 % of the machines keep by a normal law, to either side [mm]."""
-        import numpy as np
-
-        from gearlink.core.studies.tolerance.budget import normal_band
-
-        return float(normal_band(np.array([self.mean]), np.array([self.rss]))[0])
-
-    @property
-    def kept(self) -> float:
-        """The band that is judged [mm]: not more than the members add up to."""
-        return min(self.band, sum(abs(each.gain) * float(each.budget.most.max()) for each in self.shares.values()))
+        return float(self.whole.band[0])
 
     @property
     def wind_up_at_print(self) -> float | None:
@@ -164,46 +186,46 @@ class RegisterOfMachine(Design):
 
     def table_shares(self, _samples: int | None = None) -> Table:
         """What each member gives."""
-        rows = [
-            (name, each.gain, each.angle, abs(each.gain) * float(each.budget.worst.max()),
-             abs(each.gain) * float(each.budget.rss.max()), self._variance(each), each.wind_up)
-            for name, each in self.shares.items()
-        ]  # fmt: skip
+        variance = self.rss**2
+        rows = []
+        for name, each in self.shares.items():
+            own = each.budget
+            sigma = float(own.rss[0])
+            share = sigma**2 / variance if variance > 0.0 else 0.0
+            rows.append((name, each.gain, each.angle, float(own.worst[0]), sigma, share, each.wind_up))
         columns = ("member", "gain", "member_input", "worst", "sigma", "share", "wind_up")
         units = ("1", "1", "deg", "mm", "mm", "1", "mm")
         return Table("shares", columns, units, tuple(zip(*rows, strict=True)))
 
-    def _variance(self, each: Share) -> float:
-        whole = self.rss**2
-        return (each.gain * float(each.budget.rss.max())) ** 2 / whole if whole > 0.0 else 0.0
-
     def table_budget(self, _samples: int | None = None) -> Table:
         """Every source of every member, the maximum first; gains and shares are those of the whole."""
+        sources = ((name, one.source) for name, each in self.shares.items() for one in each.parts)
         rows = sorted(
             (
-                (name, row.source, abs(each.gain) * row.gain, row.limit, abs(each.gain) * row.worst,
-                 abs(each.gain) * row.sigma, row.share * self._variance(each), each.gain * row.mean)
-                for name, each in self.shares.items()
-                for row in each.budget.rows
+                (*source, row.gain, row.limit, row.worst, row.sigma, row.share, row.mean)
+                for source, row in zip(sources, self.whole.rows, strict=True)
             ),
             key=lambda row: -row[6],
-        )  # fmt: skip
+        )
         columns = ("member", "source", "gain", "limit", "worst", "sigma", "share", "mean")
         units = ("1", "1", "1", "mm", "mm", "mm", "1", "mm")
         return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
 
     def check_register_budget(self) -> Iterator[Check]:
         """GL520 where the file names what may be lost."""
-        from gearlink.core.studies.register import budget_check
+        from gearlink.core.studies.register import budget_check, tighter
 
         limit = self.section.tolerance
         if limit is None:
             return
-        status: Status = "fail" if self.kept > limit else "warn" if self.worst > limit else "pass"
-        fix = ""
+        kept = float(self.whole.kept[0])
+        status: Status = "fail" if kept > limit else "warn" if self.worst > limit else "pass"
+        fix, at_worst = "", status == "warn"
         if status != "pass":
-            table = self.table_budget()
-            first, share = f"{table['source'][0]} of {table['member'][0]}", 100.0 * float(table["share"][0])
-            fix = f"tighten {first} ({short(share, 3)} % of the variance)"
+            fix = tighter([self._parts], None, self._correlations, limit, at_worst=at_worst)
         at = f"{short(self.section.at)} deg"
-        yield budget_check(status, "register error", self.kept, self.worst, limit, fix, at=at)
+        yield budget_check(status, "register error", kept, self.worst, limit, fix, at=at)
+
+
+def _of_member(source: str, name: str) -> str:
+    return f"{source} of {name}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -70,6 +71,21 @@ def test_the_budget_is_judged(limit: float, status: str) -> None:
     assert check.limit == limit
     if status == "fail":
         assert "register error, 99.73 %" in check.message
+
+
+@pytest.mark.parametrize("share", [0.9, 0.3])
+def test_a_budget_is_kept_by_tightening_the_sources_that_are_named(share: float) -> None:
+    """Each source by the name of its member; the band of what is left is summed from the table."""
+    found = registered()
+    (check,) = registered(tolerance=share * found.band).check("register-budget")
+    which, percent = re.fullmatch(r"tighten (.*) to ([\d.]+) % of (?:its|their) limits", check.fix or "").groups()  # type: ignore[union-attr]
+    table = found.table("budget")
+    named = [f"{source} of {member}" for member, source in zip(table["member"], table["source"], strict=True)]
+    chosen = named if which == "all sources" else which.split(" and ")
+    assert set(chosen) <= set(named)
+    left = [float(percent) / 100.0 if name in chosen else 1.0 for name in named]
+    band = 3.0 * math.sqrt(float(np.sum((table["sigma"] * left) ** 2)))
+    assert share * found.band * 0.95 < band <= share * found.band
 
 
 def test_wind_up_at_the_print_is_the_lag_of_the_output_at_its_radius() -> None:
