@@ -110,6 +110,7 @@ def _at(found: Any, way: Sequence[str | int]) -> Any:
 
 
 _LISTED = 12
+_DOOR = ("check", "kind", "quantity", "quantity_names", "report", "spec", "table", "table_names", "warnings")
 
 
 class UnknownName(GearlinkError):
@@ -281,8 +282,8 @@ class Design:
         return f"<{self.kind} {self.spec.name!r}>"
 
     def __dir__(self) -> list[str]:
-        """What a class has, and every quantity."""
-        return sorted({*super().__dir__(), *self.quantity_names()})
+        """What is documented of all designs, and every quantity: what a notebook completes."""
+        return sorted({*_DOOR, *self.quantity_names()})
 
     def quantity(self, name: str) -> Quantity | None:
         """A quantity in the units of the design files.

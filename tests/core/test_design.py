@@ -201,6 +201,8 @@ def test_every_quantity_is_an_attribute_and_listed():
     whole = Whole(Spec())
     assert whole.contact_ratio == 1.5
     assert set(whole.quantity_names()) < set(dir(whole))
+    assert {"report", "table", "spec"} < set(dir(whole))
+    assert "bench" not in dir(whole)  # of the program's own
     for name in ("contact", "crank_lenght"):
         with pytest.raises(AttributeError, match=name):
             getattr(whole, name)

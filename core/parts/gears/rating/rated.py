@@ -493,7 +493,9 @@ class Rated:
         """The load factors at a point of the spectrum."""
         ratio = self.data.flank.contact_ratio_factor
         if ratio is None:
-            raise NoSolution(f"contact ratio {self.data.path.contact_ratio:.4g}: ISO 6336 rates none above 4")
+            eps = self.data.path.contact_ratio
+            limit = "above 4" if eps > 0.0 else "where no teeth touch"
+            raise NoSolution(f"contact ratio {eps:.4g}: ISO 6336 rates none {limit}")
         return LoadFactors(
             bodies=self.bodies, load=self.load, given=self.given, point=point, contact_ratio_factor=ratio
         )
