@@ -247,6 +247,20 @@ def test_linked_cams_have_the_radii_of_their_harmonics() -> None:
     assert {"R50.000", "R90.000"} <= shown
 
 
+@pytest.mark.parametrize("name", ["arc_cam", "tangent_cam", "lift_cam", "swing_gripper"])
+def test_words_of_a_bore_keep_clear_of_the_outlines(name: str) -> None:
+    figure = sheets_of(whole(name))["drawing-1"]()
+    canvas = FigureCanvasAgg(figure)
+    (axes,) = (each for each in figure.axes if any(line.get_gid() == "profile" for line in each.lines))
+    (note,) = (text for text in axes.texts if "keyway" in text.get_text())
+    box = note.get_window_extent(canvas.get_renderer())
+    for line in axes.lines:
+        if line.get_gid() in ("profile", "pitch curve", "bore"):
+            x, y = axes.transData.transform(np.column_stack(line.get_data())).T
+            inside = (x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)
+            assert not inside.any(), line.get_gid()
+
+
 def test_a_planar_cam_has_the_bore_of_its_shaft() -> None:
     shown = words(sheets_of(whole("planar_cam"))["drawing-1"]())
     assert any(text.startswith("⌀30 H7\nkeyway 8 P9") for text in shown)

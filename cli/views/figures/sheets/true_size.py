@@ -318,16 +318,39 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
     if cam.roller_radius:
         paper.text(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center", path_effects=style.outlined())
     if shaft > 0.0:
-        words = cam_sheets.bore_words(2.0 * shaft)
         taken = [complex(profile[k]) for k, _ in ends] + [roller]
-        ways = np.exp(1j * _TURN * (np.arange(24) + 0.5) / 24)
-        free = [min(abs(complex(way) - each / abs(each)) for each in taken) for way in ways.tolist()]
-        way = complex(ways[int(np.argmax(free))])
-        foot = axis + scale * 0.8 * cam.min_radius * way
-        paper.line(axes, [axis + scale * shaft * way, foot], 0.18)
-        paper.text(
-            axes, foot, words, ha="center", va="top" if way.imag < 0.0 else "bottom", path_effects=style.outlined()
-        )
+        _bore_note(axes, cam, axis, scale, shaft, [each / abs(each) for each in taken])
+
+
+_LETTER, _LINE = 1.05, 3.4
+"""Width of a letter in the mean, height of a line [mm of paper]."""
+
+
+def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: float, taken: list[complex]) -> None:
+    """Size of bore and keyway: in the cam where its outlines leave room for the words, else beside it.
+
+    Of several directions that which is the farthest from those of other dimensions, of which the last is the keyway's.
+    """
+    words = cam_sheets.bore_words(2.0 * shaft)
+    rows = words.split("\n")
+    half = 0.5 * complex(_LETTER * max(map(len, rows)), _LINE * len(rows))
+    drawn = axis + scale * np.concatenate(
+        [*cam.points(np.linspace(0.0, _TURN, 1441)), cam_sheets.bore(shaft, taken[-1])]
+    )
+    places: list[tuple[bool, bool, float, complex]] = []
+    for way in np.exp(1j * _TURN * (np.arange(24) + 0.5) / 24).tolist():
+        seen = (drawn - axis) * way.conjugate()
+        far = float(np.abs(seen[np.abs(np.angle(seen)) < 0.3]).max()) + 6.0
+        for outside, radius in ((False, 0.8 * scale * cam.min_radius), (True, far)):
+            foot = axis + radius * way
+            middle = foot + 1j * math.copysign(half.imag, way.imag)
+            beside = np.abs((drawn - middle).real) > half.real
+            clear = bool(np.all(beside | (np.abs((drawn - middle).imag) > half.imag)))
+            places.append((clear, not outside, min(abs(way - each) for each in taken), foot))
+    foot = max(places, key=lambda each: each[:3])[3]
+    way = (foot - axis) / abs(foot - axis)
+    paper.line(axes, [axis + scale * shaft * way, foot], 0.18)
+    paper.text(axes, foot, words, ha="center", va="top" if way.imag < 0.0 else "bottom", path_effects=style.outlined())
 
 
 class _Words(NamedTuple):
