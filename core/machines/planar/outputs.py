@@ -106,9 +106,10 @@ def _place_on(line: Line, size: float, names: Sequence[str]) -> Course:
     from gearlink.core.mechanism.motion import Course
 
     def of(mechanism: Mechanism) -> Sequence[Reals]:
-        jets = jets_of(mechanism, (names[line.body], names[line.other]), size)
-        order = jets.order
-        near, shape = line._replace(body=0, other=1), mechanism.links[names[line.other]].turn.value.shape
+        pair = names[line.body], names[line.other]
+        jets, near = jets_of(mechanism, pair, size), line._replace(body=0, other=1)
+        order, moving = jets.order, next(name for name in pair if name in mechanism.links)
+        shape = mechanism.links[moving].turn.value.shape
         return [(jets.seen(near, k).real * (size * math.factorial(k))).reshape(shape) for k in range(order + 1)]
 
     return Course("mm", of)

@@ -70,6 +70,27 @@ def test_a_geared_five_bar_is_the_kind_of_that_name() -> None:
         assert np.asarray(one.data[one.columns.index(f"M_{column}")]) == pytest.approx(data, abs=1e-12)
 
 
+def test_a_slot_on_a_pin_of_the_frame() -> None:
+    """A bar on a crank, through a trunnion at C: its pin slides by the distance of the crank pin, -|B - C|."""
+    radius, center = 200.0, -600.0
+    mine = design(
+        kind="planar-mechanism",
+        frame={"A": [0, 0], "C": [center, 0]},
+        links={"crank": ["A", "B", radius], "bar": {"B": [0, 0], "D": [-1000, 0]}},
+        slots={"sleeve": {"point": "C", "on": "bar", "through": [0, 0], "direction": 0}},
+        drive={"link": "crank"},
+        start={"crank": 0, "bar": 0},
+        outputs=["sleeve"],
+    )
+    table = mine.table("slides", samples=12)
+    place, speed = (
+        np.asarray(table.data[table.columns.index(f"sleeve_{each}")]) for each in ("position", "velocity_ratio")
+    )
+    pin = radius * np.exp(1j * np.radians(np.arange(0.0, 360.0, 30.0)))
+    assert place == pytest.approx(-np.abs(pin - center), rel=1e-13)
+    assert speed == pytest.approx(-(np.conj(pin - center) * 1j * pin).real / np.abs(pin - center), abs=1e-11)
+
+
 @pytest.mark.slow
 def test_the_bed_chain_is_that_of_the_press() -> None:
     mine, press = load(DESIGNS / "planar_bed_chain.yaml"), load(DESIGNS / "ty460.yaml")
