@@ -352,7 +352,8 @@ def key_of(data: dict[str, Any], check: Check) -> str:
     if member := _member(data, check):
         design = f"members.{member}.design"
         remedy = tuple((key.removeprefix(f"{design}."), value) for key, value in check.remedy)
-        own = check._replace(what=check.what.removeprefix(f"{member}: "), remedy=remedy)
+        advice = check.advice.replace(f"{design}.", "")
+        own = check._replace(what=check.what.removeprefix(f"{member}: "), remedy=remedy, advice=advice)
         return f"{design}.{key_of(data['members'][member]['design'], own)}"
     known = explanations().get(check.code)
     section = _MESHES.get(check.what.partition(": ")[0], "")

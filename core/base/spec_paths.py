@@ -46,6 +46,31 @@ def _name_of(spec: Any, key: str) -> str:
     return key if key in fields else next((name for name, field in fields.items() if field.alias == key), key)
 
 
+_KEY_IN_TEXT = re.compile(r"(?<![\w.])(set )?([a-z]\w*(?:\[\d+\])?(?:\.[a-z]\w*(?:\[\d+\])?)*)")
+
+
+def whole_paths(text: str, spec: Any, section: str) -> str:
+    """A text in which the keys of a spec have their whole paths in a file where that spec stands in a section.
+
+    Keys are recognized by a dot within them, or behind `set`.
+
+    Example
+        >>> from types import SimpleNamespace
+        >>> class Spec:
+        ...     model_fields = {"cam": SimpleNamespace(alias=None), "stroke": SimpleNamespace(alias=None)}
+        >>> whole_paths("set stroke to 5, or lower cam.offset of the cam", Spec(), "members.lift.design")
+        'set members.lift.design.stroke to 5, or lower members.lift.design.cam.offset of the cam'
+    """
+    keys = {field.alias or name for name, field in type(spec).model_fields.items()}
+
+    def whole(found: re.Match[str]) -> str:
+        before, path = found[1] or "", found[2]
+        is_key = re.split(r"[.\[]", path)[0] in keys and ("." in path or bool(before))
+        return f"{before}{section}.{path}" if is_key else found[0]
+
+    return _KEY_IN_TEXT.sub(whole, text)
+
+
 def replaced(spec: Any, path: str, value: Any) -> Any:
     """A copy of a spec with the value of one path changed; the spec itself stays as it is.
 

@@ -12,6 +12,7 @@ from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_sec
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import whole_paths
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.relations import VALUES, Moment, Relation, Value, Within, common_member
@@ -161,7 +162,7 @@ class OfMembers(Design):
         found = super().check(name) if name in type(self).outlines[self.command].checks else []
         for member, design in self._answering.items():
             if name in self._checks_of(type(design), design.spec):
-                found += [of_member(member, each) for each in self.found_of(member, design, name)]
+                found += [of_member(member, design.spec, each) for each in self.found_of(member, design, name)]
         return found
 
     def found_of(self, member: str, design: Design, check: str) -> list[Check]:
@@ -170,10 +171,12 @@ class OfMembers(Design):
             return design.check(check)
 
 
-def of_member(member: str, found: Check) -> Check:
-    """A finding of a member as one of the machine."""
-    remedy = tuple((f"members.{member}.design.{key}", value) for key, value in found.remedy)
-    return found._replace(what=f"{member}: {found.what}", remedy=remedy)
+def of_member(member: str, spec: Any, found: Check) -> Check:
+    """A finding of a member as one of the machine, its keys by their paths in the machine's file."""
+    section = f"members.{member}.design"
+    remedy = tuple((f"{section}.{key}", value) for key, value in found.remedy)
+    advice = whole_paths(found.advice, spec, section)
+    return found._replace(what=f"{member}: {found.what}", remedy=remedy, advice=advice)
 
 
 class Machine(OfMembers):

@@ -104,7 +104,9 @@ class Felt:
         """Machine angles over some revolutions at which a force jumps or bends [rad]."""
         times, end = turns // self.place.turns, TURN * turns
         found = [each + k * TURN * self.place.turns for k in range(times) for each in self.place.joints]
-        found += self.place.places([0.0, *self.machine.breaks], self.period, turns)
+        with in_section(f"members.{self.place.name}.design"):
+            own = self.machine.breaks
+        found += self.place.places([0.0, *own], self.period, turns)
         return [(each + self.phase) % end for each in found]
 
     def input(self, angle: Reals) -> list[Reals]:
@@ -126,9 +128,10 @@ class Felt:
         for rows, machine in ((forth, "machine"), (~forth, "backwards")):
             if rows.any():
                 loaded: Loaded = getattr(self, machine)
-                own = loaded.reduced(u[rows])
+                with in_section(f"members.{self.place.name}.design"):
+                    own = loaded.reduced(u[rows])
+                    static[rows] = loaded.load_torque(u[rows])
                 inertia[rows], slope[rows], weight[rows] = own.inertia, own.slope, own.weight
-                static[rows] = loaded.load_torque(u[rows])
         return Reduced(
             first**2 * inertia,
             2.0 * first * second * inertia + first**3 * slope,
@@ -147,12 +150,13 @@ class Felt:
         angle = np.linspace(0.0, TURN * self.turns, _SAMPLES * self.turns, endpoint=False)
         u, first, second = self.input(angle)
         machine = self.machine
-        mechanism = machine.at(u)
+        with in_section(f"members.{self.place.name}.design"):
+            mechanism, forces = machine.at(u), machine.applied(u)
         pressed = [each.name for each in mechanism.connections if isinstance(each, Contact) and each.back is None]
         if not pressed:
             return None
         system = System(mechanism, machine.masses)
-        still = system.right_side(machine.applied(u), machine.gravity, 0.0, 0.0)
+        still = system.right_side(forces, machine.gravity, 0.0, 0.0)
         moving = system.right_side((), 0j, first, second)
         rest, swung = system.solve([still, moving])
         found = []

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
 from machines import FEED, GRIPPER, ROCKER, cam, machine, of
 
 from gearlink.cli.opening import design
-from gearlink.core.base.errors import GearlinkError
+from gearlink.cli.texts.codes import key_of
+from gearlink.core.base.errors import GearlinkError, NoSolution
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.machine.loads import MachineLoads
 
 SPRUNG = {"spring": {"preload": 300, "rate": 4}, "follower": {"mass": 1.6}, "loads": {"roller": {"width": 16}}}
@@ -145,6 +148,20 @@ def test_findings_of_members_bear_their_names() -> None:
     checks = found.report("loads").checks
     assert all(each.message.startswith("m: ") for each in checks if each.code.startswith("GL6"))
     assert any(each.code == "GL601" for each in checks)
+
+
+def test_what_is_wrong_with_a_member_is_told_by_paths_of_the_machines_file() -> None:
+    """Its refusal had no key while the loads were summed, and the fix of its finding named the key of another file."""
+    key = "members.gripper.design.cam.return_roller.angle"
+    spec = factory.changed(factory.worked("sheet_press"), members__gripper__design__cam__return_roller__angle=12)
+    made = KINDS["machine"].spec_model().model_validate(spec)
+    with pytest.raises(NoSolution) as refusal:
+        KINDS["machine"].design("loads", made).report("loads")
+    assert refusal.value.key == key
+    assert refusal.value.fix.startswith(f"set {key} above ")
+    (found,) = [each for each in KINDS["machine"].design("analyze", made).check("lift-off") if each.status == "fail"]
+    assert found.fix == refusal.value.fix
+    assert key_of(spec, found) == key
 
 
 def test_a_member_that_fails_has_less_speed_of_the_machine_as_its_fix() -> None:
