@@ -176,8 +176,9 @@ class PressLoads(CamLoadsDesign):
             return
         across, up = gears.horizontal_distance, bed.double_crank.frame - bed.offset
         wanted = math.degrees(math.atan2(across, up))
-        off = min(abs(math.remainder(given - side * wanted, 360.0)) for side in (1.0, -1.0))
-        what, fix = "loads.gear_1_direction against the direction of the axes", f"set it to {short(wanted)} deg"
+        off, nearest = min((abs(math.remainder(given - at, 360.0)), at) for at in (wanted, -wanted))
+        what = "loads.gear_1_direction against the direction of the axes"
+        fix = f"set loads.gear_1_direction to {short(nearest)} deg"
         status: Status = "warn" if off > _NEAR else "pass"
         yield PLACE.check(status, what, off, _NEAR, "deg", name=PLACE.checks[1], side="<=", fix=fix)
 

@@ -101,6 +101,10 @@ def test_gear_1_beside_its_axes_is_told_by_how_much() -> None:
         (found,) = _press(loads__gear_1_direction=direction).check("gear-direction")
         assert found.value == pytest.approx(off, rel=1e-2)
         assert found.status == ("warn" if off > 1.0 else "pass")
+        if off <= 1.0:
+            continue
+        named = float(found.fix.removeprefix("set loads.gear_1_direction to ").removesuffix(" deg"))
+        assert abs(math.remainder(named - direction, 360.0)) == pytest.approx(found.value, abs=1e-2)
 
 
 def test_without_directions_nothing_is_judged() -> None:
