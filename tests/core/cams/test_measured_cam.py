@@ -69,6 +69,14 @@ def test_an_eccentric_circle_moves_the_rocker_of_a_triangle(sense: int, side: in
     assert design.raw("fit_max") < 1e-12
 
 
+def test_a_roller_on_a_profile_moves_as_its_differences_say() -> None:
+    """R' and R'' by central differences of R and R', good to h^2 of the waves of the profile."""
+    cam, t, h = eccentric().cam, np.linspace(0.1, 6.0, 40), 1e-4
+    before, here, after = (cam.contact(t + step) for step in (-h, 0.0, h))
+    for of, rate in ((0, 1), (1, 2)):
+        assert (after[of] - before[of]) / (2.0 * h) == pytest.approx(here[rate], rel=0.0, abs=1e-5)
+
+
 def test_the_pressure_angle_is_between_the_lines_of_the_triangle() -> None:
     design = eccentric()
     phi = np.linspace(0.0, 2.0 * math.pi, 20_001)
@@ -233,6 +241,18 @@ def test_strokes_without_dwell_end_where_the_motion_turns_round() -> None:
     ends = [math.degrees(end) for each in found for end in each[:2]]
     assert ends == pytest.approx([0.0, 150.0, 150.0, 360.0], rel=0.0, abs=360.0 / ROWS)
     assert max(each.deviation for each in found) < 1e-3
+
+
+def test_strokes_between_dwells_end_where_their_laws_do() -> None:
+    """Steps of the cam angle lie beside all ends: those of the strokes are fitted."""
+    degrees, ends = np.arange(ROWS) * 360.0 / ROWS, (30.02, 140.03, 200.04, 330.01)
+    rise, back = (np.clip((degrees - a) / (b - a), 0.0, 1.0) for a, b in (ends[:2], ends[2:]))
+    lift = rise - np.sin(2.0 * math.pi * rise) / (2.0 * math.pi) - 0.5 * (1.0 - np.cos(math.pi * back))
+    found = [each for each in phases_of(10.0 * lift, 1e-3) if each.motion != "dwell"]
+    assert [each.law for each in found] == ["cycloidal", "simple-harmonic"]
+    fitted = np.degrees([end for each in found for end in (each.start, each.end)])
+    assert fitted == pytest.approx(ends, rel=0.0, abs=1e-6)
+    assert max(each.deviation for each in found) < 1e-9
 
 
 SLIDE = {"type": "translating", "direction": 90, "offset": 8, "mass": 1.5}

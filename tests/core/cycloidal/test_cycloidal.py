@@ -84,6 +84,17 @@ def test_links_in_motion_carry_what_the_pins_do(held: str, ratio: float, discs: 
     assert found.disc_torque * discs * abs(ratio) == pytest.approx(1e5 * found.disc.lobes, rel=1e-12)
 
 
+def test_the_pins_of_the_table_stand_on_the_circle() -> None:
+    """Numbered from 1, the lever e z |sin| of the angle from the pitch point on the circle of radius e z."""
+    found = design(GIVEN)
+    table, k = found.table("pins"), np.arange(12)
+    assert list(table["pin"]) == list(range(1, 13))
+    assert table["angle"] == pytest.approx(30.0 * k, rel=1e-14)
+    place, pitch = 60.0 * np.exp(1j * math.pi / 6.0 * k), 3.0 * 12.0  # pitch point of the ring on +x; disc centre at e
+    normal = (place - pitch) / np.abs(place - pitch)
+    assert table["lever"] == pytest.approx(np.abs((np.conj(pitch - 3.0) * normal).imag), rel=1e-12, abs=1e-12)
+
+
 def test_greatest_forces_are_those_of_fine_rows() -> None:
     found = design(GIVEN, **FRICTION)
     phi = np.linspace(0.0, 2.0 * math.pi, 7201)

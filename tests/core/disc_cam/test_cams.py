@@ -351,6 +351,27 @@ def test_a_conjugate_pair_is_sized_by_both_rollers(name: str) -> None:
     assert max(shares) >= 1.0 - 1e-3
 
 
+def test_a_return_roller_a_turn_further_is_the_same() -> None:
+    """285 deg are -75 deg."""
+    follower, back = CONJUGATE["rocker that its return roller decides"]
+    motion = [{"to": 100, "lift": 16}, {"to": 180}, {"to": 280, "lift": 0, "law": "polynomial-345"}, {"to": 360}]
+    one, other = (
+        cam(
+            motion, follower, {"size": {"pressure_angle": 32}}, closure="conjugate", return_roller=back | turn
+        ).cams.place
+        for turn in ({}, {"angle": back["angle"] + 360.0})
+    )
+    assert other.radius == pytest.approx(one.radius, rel=1e-12)
+
+
+def test_loads_know_where_segments_join() -> None:
+    """The ends of the segments of the file: 0 and a whole turn are one place, at which a search begins anyway."""
+    found = np.degrees(cam(SWING, ROLLER, {"prime_radius": 80}).moving.input.joints)
+    assert (np.diff(found) > 0.0).all()
+    for end in (12.5, 87.5, 100.0, 160.0, 280.0):  # two within the modified sine
+        assert np.abs(found - end).min() < 1e-10
+
+
 @pytest.mark.parametrize(
     ("cam", "code", "key"),
     [

@@ -101,6 +101,16 @@ def test_wheel_of_several_pins_runs_on() -> None:
     assert found.contact_force_max is None
 
 
+@pytest.mark.parametrize(("kind", "pins"), [("external", 1), ("external", 2), ("internal", 1)])
+def test_loads_know_where_the_wheel_starts_and_stops(kind: str, pins: int) -> None:
+    """By the angle of the pin at the mouth of its slot, cos = a_crank/a, about each pin."""
+    found = design(GIVEN, slots=4, type=kind, pins=pins, pin_radius=3.0, locking_radius=None, wheel=None)
+    half = 0.5 * math.pi + (0.25 if kind == "internal" else -0.25) * math.pi
+    apart = np.arange(pins) * 2.0 * math.pi / pins
+    wanted = np.sort(np.concatenate([apart + half, apart - half]) % (2.0 * math.pi))
+    assert found.moving.input.joints == pytest.approx(wanted, rel=1e-12)
+
+
 @pytest.mark.parametrize("assembly", [1, -1])
 def test_comparison_at_equal_step(assembly: int) -> None:
     """Dwells within the tolerance by dense rows of each motion; the cam's peaks those of a modified sine.

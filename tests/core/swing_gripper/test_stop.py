@@ -110,6 +110,8 @@ def test_a_clearance_that_reaches_the_constant_speed_is_refused() -> None:
     assert refused.value.key == "stop.clearance"
     most = float(refused.value.fix.split()[-2])
     assert gripper(stop__clearance=0.999 * most).raw("take_off_angle") > 0.0
+    with pytest.raises(NoSolution, match="where the constant speed begins"):
+        gripper(stop__clearance=1.001 * most).raw("take_off_angle")
 
 
 @pytest.mark.parametrize("keys", [{"spring": None}, {"inertia": None}, {"stop__clearance": 0.0}])

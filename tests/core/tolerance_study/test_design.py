@@ -167,6 +167,30 @@ def test_cheapest_grades_are_those_of_all_choices() -> None:
     assert found.cost == pytest.approx(case["expected"][1], abs=1e-9)
 
 
+@pytest.mark.parametrize(("low", "high"), [(20.2, 20.42), (20.22, 20.36), (None, 20.37), (20.24, None)])
+def test_capability_of_a_normal_quantity_is_that_of_its_deviation(low: float | None, high: float | None) -> None:
+    """C_p = (U - L)/6 sigma, C_pk the nearer limit in 3 sigma: sigma of 40-digit slopes, quantiles of 2^13 samples."""
+    wide = ["back_step_angle >= 20 deg", "back_step_angle <= 21 deg"]
+    ends = [f"back_step_angle {sign} {limit} deg" for sign, limit in ((">=", low), ("<=", high)) if limit is not None]
+    made = study(CANDY, sources=FOUR, require=[*ends, *(wide if len(ends) == 2 else [])], samples=2**13)
+    row = {row["quantity"]: row for row in rows(made.table_quantities())}["back_step_angle"]
+    sigma, mean = 0.022538, 20.2955181747
+    sides = [abs(limit - mean) / (3.0 * sigma) for limit in (low, high) if limit is not None]
+    assert row["cpk"] == pytest.approx(min(sides), rel=0.05)
+    if low is not None and high is not None:  # the wider limits of the same quantity do not count
+        assert row["cp"] == pytest.approx((high - low) / (6.0 * sigma), rel=0.05)
+    else:
+        assert row["cp"] is None or math.isnan(row["cp"])
+
+
+def test_a_source_made_to_a_grade_keeps_the_place_of_its_mode() -> None:
+    """The mode lies at three quarters of the limits, and so it does after: -0.1 + 0.75 0.2."""
+    law = {"limits": [0.01, 0.05], "law": "triangular", "mode": 0.04}
+    (source,) = study(CANDY, sources={"links.crank": law}).problem.sources
+    made = source.within(0.1).law
+    assert (made.lower, made.upper, made.mode) == pytest.approx((-0.1, 0.1, 0.05), rel=1e-12)
+
+
 @pytest.mark.slow
 def test_allocation_reaches_its_target() -> None:
     sources = {key: value | {"grades": [5, 11]} for key, value in FOUR.items()}
@@ -341,3 +365,4 @@ def test_a_check_that_fails_more_than_any_requirement_is_named() -> None:
     (found,) = made.check("target-yield")
     assert found.status == "fail"
     assert "GL303, which fails most" in found.fix
+    assert f"yield: {100.0 * made.result.good.low:.4g} % (limit >= 90 %" in found.message
