@@ -27,6 +27,7 @@ from gearlink.core.mechanism.joints import (
     Mesh,
     Pin,
     Rack,
+    Shared,
     ToothDrive,
     Toothed,
     meshes_of,
@@ -315,23 +316,22 @@ def solution_of(
     """
     system = System(mechanism, masses)
     meshes = meshes_of(mechanism)
-    backs = [(each.name, each.back) for each in mechanism.connections if isinstance(each, Contact) and each.back]
+    backs = [each for each in mechanism.connections if isinstance(each, (Contact, Shared)) and each.back]
     rubbing = [] if friction is None else list(friction.units(mechanism, speed))
     sides = [system.right_side(applied, gravity, speed, 0.0), *system.radials()]
     sides += [system.side(unit.acts) for unit in rubbing]
-    for name, (at, normal) in backs:
-        place = system.place(name)
-        column = system.columns[place][1]._replace(at=at, force=normal)
+    for each in backs:
+        column = each.backward(system.columns[system.place(each.name)][1])
         sides.append(system.factors(column))  # a column of the matrix as a right side
     solved = system.solve(sides)
     places = [(system.place(mesh.name),) * 2 for mesh in meshes] + [unit.places(system) for unit in rubbing]
     shares = np.array([1.0] * len(meshes) + [unit.share for unit in rubbing])
     count, used = 1 + len(shares), {}
-    for k, (name, _) in enumerate(backs, count):
-        place = system.place(name)
+    for k, each in enumerate(backs, count):
+        place = system.place(each.name)
         free = _with_separation(solved, places[: len(meshes)], place) < 0.0
-        used[name] = free if pulled is None else pulled[name]
-        _exchange(solved, k, place, used[name])
+        used[each.name] = free if pulled is None else pulled[each.name]
+        _exchange(solved, k, place, used[each.name])
     of_side = np.zeros((len(shares), mechanism.rows))
     for k, unit in enumerate(rubbing, len(meshes)):
         of_side[k] = 0.0 if unit.side is None else unit.side
@@ -409,7 +409,7 @@ def with_friction(found: Solution, sizes: Reals, friction: Coefficients | None, 
 def _sided(found: Reactions) -> Reactions:
     """The same, with the rollers that carry."""
     connections = [
-        each.sided(found.unknowns[each.name][0]) if isinstance(each, Contact) and each.back is not None else each
+        each.sided(found.unknowns[each.name][0]) if isinstance(each, (Contact, Shared)) else each
         for each in found.mechanism.connections
     ]
     return replace(found, mechanism=replace(found.mechanism, connections=connections))

@@ -228,6 +228,11 @@ class Contact:
             np.where(force < 0.0, normal, self.normal),
         )
 
+    def backward(self, column: Column) -> Column:
+        """Its column where the second roller carries."""
+        assert self.back is not None, "asked of two rollers only"
+        return column._replace(at=self.back[0], force=self.back[1])
+
     def columns(self) -> list[Column]:
         """N n_out."""
         return [Column(self.first, self.second, self.normal, self.at, 0.0)]
@@ -299,6 +304,7 @@ class Shared:
     Fields
         first, second : str - the links that it is counted to
         acts : what its unit gives on each link, N or N mm; the frame takes what is left
+        back : the same on the same links where the unknown is negative, if other pins carry it then; None: the same
     """
 
     name: str
@@ -306,6 +312,27 @@ class Shared:
     second: str
     at: Points
     acts: tuple[Act, ...]
+    back: tuple[Act, ...] | None = None
+
+    def sided(self, force: Reals) -> Shared:
+        """The connection of the pins that carry at each row."""
+        if self.back is None:
+            return self
+        acts = tuple(
+            Act(
+                one.on,
+                np.where(force < 0.0, other.force, one.force),
+                np.where(force < 0.0, other.at, one.at),
+                one.couple,
+            )
+            for one, other in zip(self.acts, self.back, strict=True)
+        )
+        return Shared(self.name, self.first, self.second, self.at, acts)
+
+    def backward(self, column: Column) -> Column:
+        """Its column where the other pins carry."""
+        assert self.back is not None, "asked where the sides differ only"
+        return column._replace(also=self.back)
 
     def columns(self) -> list[Column]:
         """All shares of the unknown."""

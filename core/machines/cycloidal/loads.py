@@ -36,7 +36,7 @@ class ReducerSection(Loads):
 
 
 class ReducerLoads(LoadsDesign):
-    """Input angle: the eccentric's; the pins that push are those while the input drives."""
+    """Input angle: the eccentric's; the pins that push are those of the side to which the torque presses."""
 
     kind = "cycloidal-reducer"
     spec: CycloidalReducerSpec

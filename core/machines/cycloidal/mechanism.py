@@ -51,36 +51,45 @@ def _joints(design: CycloidalReducer, links: dict[str, Link], phi: Reals, turns:
     axis = links["eccentric"].origin.value
     joints: list[Connection] = [Pin("A", FRAME, "eccentric", axis), Pin("D", FRAME, "output", axis)]
     acts: list[Act] = []
+    back: list[Act] = []
     for k, at in enumerate(turns, 1):
         name, way = f"disc_{k}", units(phi + at)
         joints.append(Pin(f"E{k}", "eccentric", name, links[name].origin.value))
         # seen from the ring, which turns by phi/Z where the output is held
         seen = phi * (disc.lobes / disc.pins) + at if held else phi + at
-        shares = disc.shares(np.asarray(seen))
-        push = shares.of_ring / np.abs(shares.of_ring)
+        # torque the other way: the mirror image, by the pins that stand there
+        push, mirrored = (_direction(disc.shares(np.asarray(sense * seen)).of_ring) for sense in (1.0, -1.0))
         place = np.asarray(disc.eccentricity * disc.pins * way)
         first = "output" if held else FRAME
         joints.append(
-            Contact(f"ring_{k}", first, name, place, np.asarray(push * way), (place, np.asarray(-np.conj(push) * way)))
+            Contact(f"ring_{k}", first, name, place, push * way, (place, np.asarray(-np.conj(mirrored) * way)))
         )
         pins = np.zeros_like(phi) if held else links["output"].turn.value
-        acts += _outputs(design, name, way, np.asarray(phi + at - pins), links[name].origin.value)
-    joints.append(Shared("output_pins", FRAME if held else "disc_1", "disc_1" if held else "output", axis, tuple(acts)))
+        angle, center = np.asarray(phi + at - pins), links[name].origin.value
+        acts += _outputs(design, name, way, angle, center, 1.0)
+        back += _outputs(design, name, way, angle, center, -1.0)
+    first, second = (FRAME, "disc_1") if held else ("disc_1", "output")
+    both = None if design.spec.output_pins is None else tuple(back)
+    joints.append(Shared("output_pins", first, second, axis, tuple(acts), both))
     return joints
 
 
-def _outputs(design: CycloidalReducer, name: str, way: Points, angle: Reals, center: Points) -> list[Act]:
+def _direction(force: Points) -> Points:
+    return np.asarray(force / np.abs(force))
+
+
+def _outputs(design: CycloidalReducer, name: str, way: Points, angle: Reals, center: Points, sense: float) -> list[Act]:
     """What a N m of the output pins gives on a disc, and the opposite on the output.
 
     They push along the eccentricity from the disc's centre to the ring's, on the half that carries while the input
-    drives; without output pins in the file a couple stands for them.
+    drives (sense +1) or is driven (-1); without output pins in the file a couple stands for them.
     """
     held, given = design.spec.fixed == "output", design.spec.output_pins
     if given is None:
         couple = [Act(name, 0j, center, NEWTON_METER)]
         return couple if held else [*couple, Act("output", 0j, center, -NEWTON_METER)]
-    shares = design.disc.shares(angle, given.count, given.circle_radius).outputs
-    total = np.sum(shares, axis=1)
+    shares = design.disc.shares(np.asarray(sense * angle), given.count, given.circle_radius).outputs
+    total = sense * np.sum(shares, axis=1)
     at = np.asarray(center + 1j * way / total)
     force = np.asarray(-way * total * NEWTON_METER)
     on_disc = [Act(name, force, at, 0.0)]

@@ -84,6 +84,21 @@ def test_links_in_motion_carry_what_the_pins_do(held: str, ratio: float, discs: 
     assert found.disc_torque * discs * abs(ratio) == pytest.approx(1e5 * found.disc.lobes, rel=1e-12)
 
 
+@pytest.mark.parametrize("held", ["ring", "output"])
+def test_a_torque_the_other_way_is_a_mirror_image(held: str) -> None:
+    """Turned backwards with its torque reversed the reducer is its own mirror image about the line through pin 1."""
+    one, other = (
+        design(
+            {key: value for key, value in GIVEN.items() if key not in ("torque", "width")}, command="loads",
+            fixed=held, loads={"speed": 100.0, "forces": [{"on": "output", "torque": torque}]},
+        ).machine.reactions(phi)
+        for torque, phi in ((70.0, np.linspace(0.1, 6.0, 23)), (-70.0, -np.linspace(0.1, 6.0, 23)))
+    )  # fmt: skip
+    for name in ("E1", "E2", "A", "D"):
+        assert one.force(name) == pytest.approx(np.conj(other.force(name)), rel=1e-9, abs=1e-9)
+    assert one.torque == pytest.approx(-other.torque, rel=1e-9)
+
+
 def test_the_pins_of_the_table_stand_on_the_circle() -> None:
     """Numbered from 1, the lever e z |sin| of the angle from the pitch point on the circle of radius e z."""
     found = design(GIVEN)
