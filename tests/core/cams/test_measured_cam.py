@@ -7,6 +7,7 @@ Tolerances: the coefficients of an eccentric circle fall like (e/2R)^n; with 24 
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import factory
@@ -143,6 +144,9 @@ def test_the_laws_of_a_cam_are_found(
     found = [math.degrees(place) for each in strokes for place in (each.start, each.end)]
     assert found == pytest.approx(list(ends), abs=0.5)
     assert max(each.deviation for each in strokes) < 0.01
+    whole = design.cams.motion.whole  # strokes and dwells meet, all around
+    gaps = [math.remainder(after.start - one.end, 2.0 * math.pi) for one, after in pairwise([*whole, whole[0]])]
+    assert gaps == pytest.approx([0.0] * 4, rel=0.0, abs=1e-12)
 
 
 def test_noise_that_turns_the_cam_angle_back_is_refused() -> None:

@@ -113,6 +113,16 @@ def test_energy_balance_of_the_motor() -> None:
     assert ends[1] - ends[0] == pytest.approx(work, abs=1e-10 * ends[0])
 
 
+def test_the_ratio_that_a_slow_motor_is_told_runs_the_machine_at_its_speed() -> None:
+    """The mean torque hardly depends on the speed: forces alone, the flywheel heavy."""
+    motor = {"no_load_speed": 210.0, "slope": 3.0}
+    slow = feed(motor=motor, flywheel={"inertia": 300.0})
+    ratio = slow.running.ratio_of_speed
+    right = feed(motor=motor | {"ratio": ratio}, flywheel={"inertia": 300.0})
+    assert abs(0.5 * (slow.speed_min + slow.speed_max) / 120.0 - 1.0) > 0.2
+    assert 0.5 * (right.speed_min + right.speed_max) == pytest.approx(120.0, rel=1e-3)
+
+
 def test_rms_torque_of_the_motor_is_over_time() -> None:
     """The exponentials of two zones in time, k (w_0 - w) squared, integrated in closed form; the slow zone lasts."""
     k, no_load, inertia, edge = 2.0, 20.0, 0.7, 1.2

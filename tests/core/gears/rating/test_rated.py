@@ -333,6 +333,56 @@ def test_the_velocity_factor_starts_at_the_constants_of_the_standard() -> None:
         assert found.velocity_factor_at(10.0) == pytest.approx(1.0, rel=EXACT)
 
 
+@pytest.mark.parametrize("helix", [0.0, 14.0])
+def test_the_flash_temperature_from_the_file_on(helix: float) -> None:
+    """ISO/TR 13989-2 once more, from teeth and diameters; load factors, mesh stiffness and tip circles are taken."""
+    oil = {"lubricant": {"vg": 220, "viscosity_100": 19, "temperature": 80, "scuffing_stage": 12}}
+    data = rated(rating=oil, helix_angle=helix).data
+    found, at, pair = data.rated.scuffing, data.rated.at_load, data.pair
+    z, normal, beta = (23, 71), math.radians(20.0), math.radians(helix)
+    transverse = math.atan(math.tan(normal) / math.cos(beta))
+    base = [0.5 * 4.0 * teeth / math.cos(beta) * math.cos(transverse) for teeth in z]
+    distance = sum(base) / math.cos(working := pair.working_pressure_angle)
+    tips = [math.sqrt(tip**2 - r**2) for tip, r in zip(pair.tip_radius, base, strict=True)]
+    pitch = 2.0 * math.pi * base[0] / z[0]
+    eps = [(tip - r * math.tan(working)) / pitch for tip, r in zip(tips, base, strict=True)]
+    first, second = tips[0], distance * math.sin(working) - tips[0]
+    u = z[1] / z[0]
+    x_be = 0.51 * math.sqrt(u + 1.0) * abs(math.sqrt(first) - math.sqrt(second / u)) / (first * second) ** 0.25
+    turned = (math.sin(working) * math.cos(normal) * math.cos(beta)) ** 0.25
+    angle = 1.22 * turned / math.sqrt(math.cos(working) * math.cos(transverse))
+    base_helix = math.asin(math.sin(beta) * math.cos(normal))
+    curvature = base[0] * math.tan(working) * base[1] * math.tan(working)
+    curvature /= (base[0] + base[1]) * math.tan(working) * math.cos(base_helix)
+    load = at.line_load * at.dynamic * at.face_contact * at.transverse_contact
+    total = at.total_contact_ratio
+    shared = 1.0 if total <= 2.0 else min(1.3, 1.0 + 0.2 * math.sqrt((total - 2.0) * (5.0 - total)))
+    speed = 480.0 * math.pi / 30.0 * base[0] / math.cos(transverse) / 1000.0
+    rolling = 2.0 * speed * math.tan(working) * math.cos(transverse)
+    rough = 2.2 * (np.mean(data.rated.conditions.ra) / curvature) ** 0.25
+    friction = 0.045 * (load * shared / (rolling * curvature)) ** 0.2 * found.viscosity**-0.05 * rough
+    relief = np.mean([(limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5 for limit in data.rated.contact_limits])
+    share = min(1.0, relief / (at.line_load / at.mesh_stiffness))
+    longest = max(eps)
+    x_ca = 1.0 + (0.06 + 0.18 * share) * longest + (0.02 + 0.69 * share) * longest**2
+    flash = friction * found.thermal_flash_factor * x_be * angle * (shared * load) ** 0.75 * speed**0.5 / distance**0.25
+    flash *= contact_ratio_factor(*eps) / (found.approach_factor * x_ca)
+    assert found.thermal_flash_factor == pytest.approx(50.0, abs=0.1)  # as printed for steel on steel
+    assert found.flash_temperature == pytest.approx(flash, rel=1e-9)
+    assert found.integral_temperature == pytest.approx(80.0 + 2.2 * flash, rel=1e-9)
+
+
+def test_the_face_load_of_the_root_is_that_of_the_height() -> None:
+    """The exponent as the standard prints it, (b/h)^2/(1 + b/h + (b/h)^2), b/h of the higher teeth, at least 3."""
+    for width, least in ((40.0, 4.0), (20.0, 3.0)):
+        data = rated(face_width=width).data
+        heights = [tip - root for tip, root in zip(data.pair.tip_radius, data.pair.root_radius, strict=True)]
+        x = max(3.0, width / max(heights))
+        assert least <= x < least + 1.0
+        power = x * x / (1.0 + x + x * x)
+        assert data.rated.at_load.face_bending == pytest.approx(data.rated.at_load.face_contact**power, rel=EXACT)
+
+
 def test_a_soft_wheel_on_a_hard_pinion_is_smoothed_and_hardened() -> None:
     keys = {"material": ["16MnCr5", "42CrMo4"], "brinell": [650, 300]}
     one = of("work_hardening_factor", rating=keys)
