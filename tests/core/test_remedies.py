@@ -40,7 +40,7 @@ def with_values(data: Data, remedy: Remedy) -> Data:
         if value is None:
             del place[last]
         else:
-            place[last] = value
+            place[last] = list(value) if isinstance(value, tuple) else value  # as a file has it
     return repaired
 
 
