@@ -509,7 +509,7 @@ class RegisterDesign(Design):
         if self.section.method == "mc" and not at_worst:
             limit *= max(float(one.kept.max()) for one in self.budgets) / max(self.band)
         at_worst = at_worst or self.section.method == "worst"
-        return tighter(every, start, self.correlations, limit, at_worst=at_worst)
+        return tighter(tightened(every, start, self.correlations, limit, at_worst=at_worst), len(every[0]))
 
     @property
     def _where(self) -> str:
@@ -612,17 +612,10 @@ def _band(errors: Reals) -> float:
     return float(ordered[min(ordered.size - 1, math.ceil(_KEPT * ordered.size) - 1)])
 
 
-def tighter(
-    every: Sequence[Sequence[Contribution]],
-    start: int | None,
-    correlations: Mapping[tuple[str, str], float] | None,
-    limit: float,
-    *,
-    at_worst: bool,
-) -> str:
-    """The fix of GL520, of what `tightened` finds."""
-    names, percent = tightened(every, start, correlations, limit, at_worst=at_worst)
-    every_one = len(names) == len(every[0]) > 1
+def tighter(found: tuple[list[str], float], sources: int) -> str:
+    """The fix of GL520, of what `tightened` finds among so many sources."""
+    names, percent = found
+    every_one = len(names) == sources > 1
     which = "all sources" if every_one else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
     return f"tighten {which} to {safely_below(percent)} % of {'their' if len(names) > 1 else 'its'} limits"
 

@@ -14,7 +14,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine.design import Machine
 from gearlink.core.machines.machine.speeds import speed_changes
-from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget
+from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, tightened
 
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.loads import MachineLoads
@@ -222,7 +222,8 @@ class RegisterOfMachine(Design):
         status: Status = "fail" if kept > limit else "warn" if self.worst > limit else "pass"
         fix, at_worst = "", status == "warn"
         if status != "pass":
-            fix = tighter([self._parts], None, self._correlations, limit, at_worst=at_worst)
+            found = tightened([self._parts], None, self._correlations, limit, at_worst=at_worst)
+            fix = tighter(found, len(self._parts))
         at = f"{short(self.section.at)} deg"
         yield budget_check(status, "register error", kept, self.worst, limit, fix, at=at)
 
