@@ -193,6 +193,12 @@ class Design:
         """The design of another class for the same spec: of a file's designs the one that its other commands have."""
         return cls(self.spec) if self.kin is None else self.kin.of_class(cls, self.spec)
 
+    def of_command(self, command: str) -> Design:
+        """The design that serves another command of the same file."""
+        from gearlink.core.base.kinds import KINDS
+
+        return KINDS[self.kind].design(command, self.spec) if self.kin is None else self.kin.of(command)
+
     @cached_property
     def moving(self) -> Motion:
         """Its links and joints over the input, of a kind that moves."""

@@ -660,10 +660,14 @@ class MotionRegister(RegisterDesign):
         kind = KINDS[spec.kind]
         spec = kind.completed(spec)  # the links that it finds are what scatters
         super().__init__(spec)
-        self.record, self.design = kind, kind.class_for("analyze", spec)(spec)
+        self.record = kind
         self.kind = kind.name  # type: ignore[misc]  # of a class that serves all kinds
 
-    design: Design
+    @cached_property
+    def design(self) -> Design:
+        """The geometry of the same file."""
+        found: Design = self.of_file(self.record.class_for("analyze", self.spec))
+        return found
 
     @cached_property
     def motion(self) -> Motion:

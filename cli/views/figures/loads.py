@@ -17,7 +17,6 @@ from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, styl
 from gearlink.cli.views.figures.drawing.linkage import closed
 from gearlink.cli.views.figures.sheets.vector_sheet import fraction_at, frame_of
 from gearlink.cli.views.scenes import shown
-from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism import vectors
 
 if TYPE_CHECKING:
@@ -631,7 +630,7 @@ def analysed(loads: Any) -> Any:
     if not hasattr(type(loads), "unknown_joints"):
         return loads
     commands = loads.spec.commands()
-    return KINDS[loads.kind].design("analyze" if "analyze" in commands else commands[0], loads.spec)
+    return loads.of_command("analyze" if "analyze" in commands else commands[0])
 
 
 def _over_input(axes: Axes, loads: Any) -> Reals:

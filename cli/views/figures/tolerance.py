@@ -177,7 +177,7 @@ def study_of(design: Any) -> ToleranceStudy | None:
     kind = KINDS.get(design.kind)
     if kind is None or "tolerance" not in kind.commands or getattr(design.spec, "tolerance", None) is None:
         return None
-    return cast("ToleranceStudy", kind.design("tolerance", design.spec))
+    return cast("ToleranceStudy", design.of_command("tolerance"))
 
 
 def draw_tornado(design: Any) -> Figure:

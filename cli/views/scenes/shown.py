@@ -574,7 +574,7 @@ def loads_design(design: Any) -> Any:
     """The design of the loads of the same file; None where the file or the kind has none."""
     if _is_loaded(design):
         return design
-    return KINDS[design.kind].design("loads", design.spec) if _names_loads(design) else None
+    return design.of_command("loads") if _names_loads(design) else None
 
 
 # What fails

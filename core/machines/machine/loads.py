@@ -18,7 +18,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.design import Machine, OfMembers
 from gearlink.core.machines.machine.series import MOST_TURNS, OnShaft
-from gearlink.core.machines.machine.speeds import at_speed, own_speeds
+from gearlink.core.machines.machine.speeds import own_speeds
 from gearlink.core.mechanism.dynamics import Reduced, System
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.motion import TURN, Motion
@@ -251,7 +251,7 @@ class MachineLoads(OfMembers, LoadsDesign):
         for name, member in self.spec.members.items():
             if has_loads(member):
                 with in_section(f"members.{name}.design"):
-                    found[name] = member.kind.design("loads", self._spec_of(name))  # type: ignore[assignment]
+                    found[name] = self._made(name)
                     self._refuse_drives(found[name])
         if not found:
             raise MissingSection("no member has loads", key="members", fix="give one of them the section loads")
@@ -265,13 +265,15 @@ class MachineLoads(OfMembers, LoadsDesign):
                     message, key=f"loads.{key}", fix="give it in loads of the machine, not in those of a member"
                 )
 
-    def _spec_of(self, name: str) -> Any:
-        """The spec of a member; one behind another is made at the machine's speed, and moved by its driver."""
+    def _made(self, name: str) -> LoadsDesign:
+        """The loads of a member; one behind another is made at the machine's speed, and moved by its driver."""
         member = self.spec.members[name]
         if member.input is None:
-            return at_speed(self.spec, name)
+            shared: LoadsDesign = self.members.own(name).design.of_command("loads")  # on that of its motion
+            return shared
         given = own_speeds(member.spec)
-        return member.changed([(each.key, abs(self.given_speed) / each.per) for each in given[-1:]])
+        spec = member.changed([(each.key, abs(self.given_speed) / each.per) for each in given[-1:]])
+        return member.kind.design("loads", spec)  # type: ignore[return-value]
 
     def phase_of(self, member: str, what: str) -> float | None:
         """Phase and its room of a free member [rad]."""

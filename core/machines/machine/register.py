@@ -123,7 +123,7 @@ class RegisterOfMachine(Design):
     def _loads(self) -> MachineLoads:
         from gearlink.core.machines.machine.loads import MachineLoads  # with the loads, where they are wanted
 
-        return MachineLoads(self.spec)
+        return self.of_file(MachineLoads)
 
     # Results
 
