@@ -54,7 +54,7 @@ def table(design: Design, sought: Sought, spec: Any = None) -> Table:
     units |= {name: unit for name, unit in sought.keys.values() if name}
     units["findings"] = "1"  # before the quantities: what does not pass is looked for first
     units |= dict.fromkeys(sought.counted, "1")
-    units |= {name: design.unit_for(design.spec, name) for name in sought.quantities}
+    units |= {name: design.unit_of(name) for name in sought.quantities}
     shown = {name: unit for name, unit in units.items() if any(row.get(name) is not None for row in found)}
     return Table.of("candidates", {name: ([row.get(name) for row in found], unit) for name, unit in shown.items()})
 

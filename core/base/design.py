@@ -264,6 +264,10 @@ class Design:
         """The unit of a quantity of the design of a spec."""
         return term(name).unit
 
+    def unit_of(self, name: str) -> str:
+        """The unit of a quantity of this design."""
+        return self.unit_for(self.spec, name)
+
     def raw(self, name: str) -> Any:
         """The value of a quantity in mm and radians.
 
@@ -309,7 +313,7 @@ class Design:
         value = _bounded(self.raw(name))
         if value is None:
             return None
-        entry, unit = term(name), self.unit_for(self.spec, name)
+        entry, unit = term(name), self.unit_of(name)
         return Quantity(name, in_unit(value, unit), unit, entry.symbol, entry.words)
 
     def needs(self, _name: str, /) -> str:

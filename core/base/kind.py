@@ -156,8 +156,10 @@ class FileDesigns:
             return cls(spec)
         made: Any = self._made.get(cls)
         if made is None:
-            made = self._made[cls] = cls(self._spec)
-            made.kin = self
+            made = cls.__new__(cls)
+            made.kin = self  # before the rest, which may ask for the others
+            made.__init__(self._spec)
+            self._made[cls] = made
         found: Made = made
         return found
 

@@ -40,7 +40,6 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.machines.flatbed_press.chains import difference, least_transmission_input
 from gearlink.core.machines.flatbed_press.loads_spec import PressLoads
-from gearlink.core.machines.flatbed_press.mechanism import bare
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
 
 if TYPE_CHECKING:
@@ -75,7 +74,7 @@ class Machine:
     @cached_property
     def here(self) -> Positions:
         """The links; without its cams the lower rack stands."""
-        return Positions((self.design if self.cams else bare(self.design)).moving, self.phi)
+        return Positions((self.design if self.cams else self.design.without_cam).moving, self.phi)
 
     def velocity(self, link: str, pin: str) -> Points:
         """Of a pin by the input angle [mm/rad], N towards +x from G."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.crank_rocker.design import CrankRocker
-from gearlink.core.machines.crank_rocker.synthesis import made
+from gearlink.core.machines.crank_rocker.synthesis import class_of
 from gearlink.core.parts.linkages.fourbar.mechanism import full_balance
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.names import BALANCE
@@ -33,7 +33,7 @@ class CrankRockerLoads(LoadsDesign):
         Raises
             NoSolution - where its crank does not turn fully, or moves within a range only
         """
-        found = made(self.spec)
+        found = self.of_file(class_of(self.spec))
         if found.crank_range is not None:
             key = "range" if self.spec.range is not None else "function.pairs"
             message = "loads are those of whole revolutions at even speed"

@@ -679,7 +679,7 @@ class FunctionSynthesis(_Synthesis):
 _APART = "it opens between the pairs, which it reaches only when it is put together anew"
 
 
-def made(spec: Any) -> CrankRocker:
-    """The design of a file, its links given or found."""
-    designs = {"": CrankRocker, "synth swing": SwingSynthesis, "synth function": FunctionSynthesis}
-    return designs[spec.sized_by("analyze")](spec)
+def class_of(spec: Any) -> type[CrankRocker]:
+    """The class of the design of a file, its links given or found."""
+    classes = {"": CrankRocker, "synth swing": SwingSynthesis, "synth function": FunctionSynthesis}
+    return classes[spec.sized_by("analyze")]

@@ -514,11 +514,9 @@ def polygons(design: FlatbedPress, samples: int | None = None) -> dict[str, tupl
     """
     import numpy as np
 
-    from gearlink.core.machines.flatbed_press.mechanism import bare
-
     count = samples or 12
     degrees = np.array([360.0 * k / count for k in row_numbers(samples, count)])
-    links = bare(design).moving.at(np.radians(degrees), 1).links
+    links = design.without_cam.moving.at(np.radians(degrees), 1).links
     at = {
         point: design.input_speed * links[link].at(point).first
         for point, link in {"B": "gear2", "C": "CDE", "E": "CDE", "F": "carriage", "H": "gear1", "M": "MN"}.items()
@@ -1198,6 +1196,15 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         return self.spec.cam is None or self.cams.follows
 
     @property
+    def without_cam(self) -> FlatbedPress:
+        """The same press without its cam: the lower rack stands."""
+        return self if self.spec.cam is None else self._without_cam
+
+    @cached_property
+    def _without_cam(self) -> FlatbedPress:
+        return type(self)(self.spec.model_copy(update={"cam": None}))
+
+    @property
     def gear_distance(self) -> float:
         """Distance of the axes A and G of gears 1 and 2 [mm]; 0 without `input_gears`."""
         gears, bed = self.spec.input_gears, self.spec.bed
@@ -1371,10 +1378,10 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         """Both chains at equal input angles (TY-460 report 1.2, 2.2), and the bed with the lift of its cam."""
         import numpy as np
 
-        from gearlink.core.machines.flatbed_press.mechanism import bare, bed, cylinder
+        from gearlink.core.machines.flatbed_press.mechanism import bed, cylinder
         from gearlink.core.mechanism.courses import Shown, between, turned
 
-        without = bare(self)
+        without = self.without_cam
         plain, surface = bed(without), cylinder(self)
         shown = [
             Shown("cam_angle", turned("CDE").less(self.bed.cam_angle_start)),
@@ -1430,7 +1437,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
         Of a bed whose cam cannot be nothing is said.
         """
-        from gearlink.core.machines.flatbed_press.mechanism import bare, bed, cylinder
+        from gearlink.core.machines.flatbed_press.mechanism import bed, cylinder
         from gearlink.core.mechanism.courses import Shown, turned
 
         # as gear 1 and its chain are turned there
@@ -1449,7 +1456,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             Shown("HM_angle", turned("HM").less(half_turn)),
             Shown("MN_angle", turned("MN").less(half_turn)),
         ]
-        found = (self if self.bed_moves else bare(self))._in_time(samples, shown)
+        found = (self if self.bed_moves else self.without_cam)._in_time(samples, shown)
         time = found["input_angle"][0] / 360.0 * 3.6e6 / self.spec.speed
         return Table.of("chains", {"input_angle": found["input_angle"], "time": (time, "ms"), **found})
 

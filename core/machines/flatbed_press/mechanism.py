@@ -52,11 +52,6 @@ def motion(design: FlatbedPress) -> Motion:
     return Motion(press.at, Input(joints=press.joints), outputs, transmission=least_transmission("C", "M", "F"))
 
 
-def bare(design: FlatbedPress) -> FlatbedPress:
-    """The same press without its cam: the lower rack stands."""
-    return design if design.spec.cam is None else type(design)(design.spec.model_copy(update={"cam": None}))
-
-
 def bed(design: FlatbedPress) -> Course:
     """Travel of the bed from input angle 0, where it stands at its dead centre [mm]."""
     start = _Press(design).rods(np.zeros(1), 0)["carriage"].origin.value[0]

@@ -20,7 +20,6 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press.chains import difference
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
-from gearlink.core.machines.flatbed_press.mechanism import bare
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.mechanism.joints import Connection, Coupling, Mesh, Rack
 from gearlink.core.mechanism.links import Mechanism
@@ -123,7 +122,7 @@ class PressRegister(RegisterDesign):
     @cached_property
     def _bare(self) -> Motion:
         """The motion of the press without its cam."""
-        return bare(self.design).moving
+        return self.design.without_cam.moving
 
     def output(self, input_angle: Reals) -> Output:
         """Delta of the bed as it rolls on the carriage, the cylinder's surface and the rack, which CDE lifts."""

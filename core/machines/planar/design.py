@@ -359,8 +359,14 @@ class PlanarMechanism(Design):
         """Units follow the input and what the outputs are."""
         if name in GENERAL:  # inputs of a slide are in mm
             return "mm" if spec.drive.slide and name in _INPUTS else super().unit_for(spec, name)
-        meaning = cls(spec).meanings.get(name)
-        return super().unit_for(spec, name.rpartition(".")[2]) if meaning is None else meaning.unit
+        return cls(spec).unit_of(name)
+
+    def unit_of(self, name: str) -> str:
+        """Of this design, whose outputs are known."""
+        meaning = self.meanings.get(name)
+        if name in GENERAL:
+            return super().unit_of(name)
+        return super().unit_for(self.spec, name.rpartition(".")[2]) if meaning is None else meaning.unit
 
     def outline(self, command: str) -> Outline:
         """With the quantities of the file's outputs."""

@@ -508,7 +508,7 @@ class PlanarSamples:
         design, quantities, findings = many.design, {}, [*many.judged_gaps]
         for name in sorted(names, key=lambda name: name == "closure_error"):  # that of all places that were sought
             found = many.value(name)
-            unit = design.unit_for(design.spec, name)
+            unit = design.unit_of(name)
             quantities[name] = np.degrees(found) if unit == "deg" else found
         if self._humps.keys() & {*self.nominal.dyad_keys}:
             value = np.degrees(many.transmission[0])

@@ -54,6 +54,7 @@ _OF_TORQUE = frozenset(
 )  # fmt: skip
 Wanted: TypeAlias = tuple[str, bool]
 """A course by name, and whether its maximum or its minimum value is shown."""
+_OF_OUTPUT = frozenset({"residual_amplitude", "dwell_twist", "twisted_ripple"})
 _HIGHEST = 10_000
 _CANCELLED = 1e-6
 _BESIDE_BREAK = 1e-11
@@ -673,11 +674,16 @@ class LoadsDesign(Design):
     @classmethod
     def unit_for(cls, spec: Any, name: str, /) -> str:
         """Places of the output are in mm where it slides, speeds in the unit of the kind's own."""
-        if name in ("residual_amplitude", "dwell_twist", "twisted_ripple"):
-            design = cls(spec)
-            return "mm" if design.output in design.sliding else "deg"
+        if name in _OF_OUTPUT:
+            return cls(spec).unit_of(name)
         of_speed = name in ("residual_speed_limit", "lift_off_speed")
         return cls.speed_unit_name if of_speed else super().unit_for(spec, name)
+
+    def unit_of(self, name: str) -> str:
+        """Of this design, whose output is known."""
+        if name in _OF_OUTPUT:
+            return "mm" if self.output in self.sliding else "deg"
+        return super().unit_of(name)
 
     @property
     def _twisting(self) -> Vibrating | None:

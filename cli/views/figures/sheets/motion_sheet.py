@@ -198,9 +198,7 @@ def _angles() -> Reals:
 def press(design: Any) -> list[Course]:
     """Bed and cylinder; of a bed whose cam cannot be, its chain alone."""
     if not design.bed_moves:
-        from gearlink.core.machines.flatbed_press.mechanism import bare
-
-        bed, cylinder = _courses(bare(design).moving, design.input_speed)
+        bed, cylinder = _courses(design.without_cam.moving, design.input_speed)
         return [replace(bed, name="Bed, without its cam"), cylinder]
     bed, cylinder = _courses(design.moving, design.input_speed)
     zone, back = cylinder.bands, panels.Phase("back", _turning(bed), 360.0)
@@ -306,9 +304,7 @@ def zone_errors(design: Any, degrees: Reals, *, cams: bool = True) -> tuple[Real
     Parameters
         cams : bool - with what the cams add to the bed, where there are some
     """
-    from gearlink.core.machines.flatbed_press.mechanism import bare
-
-    motion = (design if cams else bare(design)).moving
+    motion = (design if cams else design.without_cam).moving
     phi = np.append(design.sync_start, np.radians(degrees))
     bed, cylinder = (each.course.rates(motion, phi, 1) for each in motion.outputs)
     way, rate = (one - other for one, other in zip(bed, cylinder, strict=True))
