@@ -67,7 +67,7 @@ class Problem:
         given = self.section.sources
         counted = {key: one for key, one in given.items() if not self._is_of_register(key, one)}
         if len(counted) < len(given):
-            register: Any = self.base.kind.design("register", self.base.spec())
+            register: Any = self.nominal.of_command("register")
             register.require_parts(self.section)
         found: tuple[Scatter, ...] = ()
         for key in counted:
@@ -303,8 +303,7 @@ def problem(spec: Any) -> Problem:
         )
     try:
         given = Base(data, asked)
-        base = _with_links(given)
-        nominal = replace(base, warnings=True).design()
+        base, nominal = _with_links(given)
     except (Refused, NoSolution) as error:
         missing = error.code == MissingSection.code and section.command is not None
         raise NoSolution(str(error), key="tolerance.command" if missing else error.key) from error
@@ -313,11 +312,14 @@ def problem(spec: Any) -> Problem:
     return Problem(base, nominal, section, axis, given, tuple(spec.commands()))
 
 
-def _with_links(base: Base) -> Base:
+def _with_links(given: Base) -> tuple[Base, Design]:
     """A synthesis, a search for a target or a rule is done once: what it finds becomes keys of the file."""
-    found = list(base.design().as_found())
-    command = "analyze" if base.command.startswith("synth") else base.command
-    return Base(base.changed((one.path, one.value) for one in found), command, warnings=False)
+    design = given.design()
+    found = list(design.as_found())
+    command = "analyze" if given.command.startswith("synth") else given.command
+    base = Base(given.changed((one.path, one.value) for one in found), command, warnings=False)
+    as_given = not found and command == given.command
+    return base, design if as_given else replace(base, warnings=True).design()
 
 
 def no(code: str, message: str, *place: str | int) -> WrongStudy:
