@@ -390,6 +390,7 @@ def test_processes_begin_as_soon_as_the_rest_is_known_to_take_its_time(
     assert len(results) == here
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The system's limit of processes or open files is reached."""
 

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import sys
 import time
+from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
 
@@ -239,12 +240,9 @@ def dies(canonical: str, number: int) -> tuple[str, bytes]:
     """A chunk of which the second ends its process."""
     from gearlink.core.studies.explore import chunks
 
-    if number == 2 and os.getpid() != PARENT:
+    if number == 2 and parent_process() is not None:
         os._exit(9)
     return chunks.computed(canonical, number)
-
-
-PARENT = os.getpid()
 
 
 def test_a_worker_that_dies_is_replaced_and_the_culprit_named(
