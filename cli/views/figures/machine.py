@@ -146,21 +146,27 @@ def draw(command: str, design: Any) -> Figure:
         return _loads(design)
     if command == "register":
         return _register(design)
-    made = panels.page(f"{design.spec.name}: timing", 0.16 + 0.085 * len(design.spec.members))
+    made = panels.page(f"{design.spec.name}: timing", 0.16 + 0.085 * len(design.spec.members), least=_height_of(design))
     _line(made.add_subplot(), design)
     return made
 
 
+def _height_of(design: Any, each: float = 0.034) -> float:
+    """Height that the members need at least, that of A4 being 1: each two lines of letters, above and below in a circle
+    one."""
+    return 0.16 + each * len(design.spec.members)
+
+
 def line_sheet(design: Any) -> Figure:
     """The timing as a line, A3."""
-    made = panels.page(f"{design.spec.name}: timing", large=True, lying=True)
+    made = panels.page(f"{design.spec.name}: timing", least=_height_of(design), large=True, lying=True)
     _line(made.add_subplot(), design)
     return made
 
 
 def circle_sheet(design: Any) -> Figure:
     """The timing as a circle, A3."""
-    made = panels.page(f"{design.spec.name}: timing\n", large=True, lying=True)
+    made = panels.page(f"{design.spec.name}: timing\n", least=_height_of(design, 0.03), large=True, lying=True)
     axes: Any = made.add_subplot(projection="polar")
     _circle(axes, design)
     return made

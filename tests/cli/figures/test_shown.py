@@ -7,6 +7,7 @@ of the size; their second differences eps/h^2, below 1e-4.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -354,6 +355,23 @@ def test_the_timing_of_a_machine_keeps_the_margins_of_its_page() -> None:
     top = max(axes.get_tightbbox(renderer).y1 for axes in figure.axes)
     assert figure._suptitle.get_window_extent(renderer).y0 >= top  # type: ignore[attr-defined]
     assert "return 0–360°" in words(machine.circle_sheet(made))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [45, 120])
+def test_a_machine_of_many_members_has_paper_for_their_names(count: int) -> None:
+    """Names and ranges of 100 members stood on each other, their curves were flat."""
+    crank = {"kind": "slider-crank", "stroke": 40, "rod": 90}
+    members = {f"member_{i}": {"phase": i, "design": crank} for i in range(count)}
+    made = design({"kind": "machine", "name": "long", "members": members})
+    for figure in (settled(machine.draw("analyze", made)), settled(machine.line_sheet(made))):
+        boxes = [label.get_window_extent() for label in figure.axes[0].get_yticklabels()]
+        assert len(boxes) == count
+        assert all(upper.y0 > lower.y1 for upper, lower in pairwise(boxes))
+    circle = settled(machine.circle_sheet(made))
+    boxes = [text.get_window_extent() for text in circle.axes[0].texts if text.get_text().startswith("member ")]
+    assert len(boxes) == count
+    assert all(upper.y0 > lower.y1 - 0.3 * lower.height for upper, lower in pairwise(boxes)), "letters have room"
 
 
 def test_a_cam_is_coloured_by_its_pressure_angle() -> None:

@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 
 
 Box: TypeAlias = tuple[float, float, float, float]
-_A4, _A3 = (8.27, 11.69), (11.69, 16.54)
+_PAPERS = ((8.27, 11.69), (11.69, 16.54), (16.54, 23.39), (23.39, 33.11), (33.11, 46.81))
+"""A4 to A0, upright [in]."""
+_A4 = _PAPERS[0]
 _SQUEEZED = 1.25
 """Pages of A4 that still are drawn on one."""
 
@@ -72,15 +74,20 @@ def phases_of(output: Output) -> tuple[Phase, ...]:
     return tuple(Phase(name, math.degrees(start), math.degrees(end)) for name, start, end in output.phases)
 
 
-def page(title: str, share: float = 1.0, *, large: bool | None = None, lying: bool = False) -> Figure:
+def page(
+    title: str, share: float = 1.0, *, least: float = 0.0, large: bool | None = None, lying: bool = False
+) -> Figure:
     """A figure as wide as A4 or A3, and at most as high, so that printers take it to scale.
 
     share : height that it needs, that of A4 being 1
+    least : height below which it cannot be read: where that of A3 is less, the paper is larger, more than A0 at last
     large : whether it is on A3; by default where A4 would squeeze it too much
     lying : the whole paper, on its long side
     """
-    width, most = _A3 if (share > _SQUEEZED if large is None else large) else _A4
-    width, height = (most, width) if lying else (width, min(share * _A4[1], most))
+    larger = share > _SQUEEZED if large is None else large
+    papers = [(long, short) if lying else (short, long) for short, long in _PAPERS[larger:]]
+    width, most = next((paper for paper in papers if paper[1] >= least * _A4[1]), papers[-1])
+    height = max(most if lying else min(share * _A4[1], most), least * _A4[1])
     letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
     made = style.figure(width, height, fill(title.replace("$", r"\$"), letters))
     engine: Any = made.get_layout_engine()
