@@ -52,7 +52,8 @@ def folder(text: str) -> Path:
         raise ValueError("the name is empty\ngive a folder, . for the current one")
     path = file(text)
     if path.suffix.lower() in _WRITTEN and not path.is_dir():
-        raise ValueError(f"{path} is the name of a file, a folder is required\ngive {path.parent}")
+        above = ". for the current one" if path.parent == Path() else path.parent
+        raise ValueError(f"{path} is the name of a file, a folder is required\ngive {above}")
     return _no_stream(path, "folder")
 
 

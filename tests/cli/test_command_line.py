@@ -270,6 +270,14 @@ def test_a_file_for_a_folder_is_said_so(gearlink: Any, crank: Path, tmp_path: Pa
     assert (tmp_path / "taken").read_text() == ""
 
 
+@pytest.mark.parametrize(("given", "folder"), [("films/a.gif", "films"), ("a.gif", ". for the current one")])
+def test_a_name_of_a_file_is_answered_by_the_folder(gearlink: Any, crank: Path, given: str, folder: str) -> None:
+    """The current folder was a dot that the end of a sentence swallowed."""
+    ended = gearlink("animate", crank, "--out", given)
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert f"help: give {folder}" in ended.err
+
+
 @pytest.mark.slow
 def test_ascii_terminal() -> None:
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}

@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 _MEMBER_COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.RED, style.SKY, style.GREY, style.BLACK)
 _CELL = 100.0
 """Width of the place of a member, and its height; what it shows is scaled into nine tenths of it."""
+_MOST_CURVES = 12
+"""Members that an animation can tell apart in one chart and one line of values."""
 _WIDE = 1.7
 """Places beside each other over those one above the other."""
 
@@ -63,10 +65,13 @@ def build(design: Machine, fraction: Reals) -> Scene:
         scale, shift = _fit(own, corner)
         marks += [Mark(track(scale * mark.point + shift, fraction), "", pivot=True) for mark in own.marks if mark.pivot]
         marks.append(Mark(track(corner + complex(0.5, 0.96) * _CELL, fraction), name))
-    now = {name: _shown(design, name, 360.0 * design.cycle_turns * fraction) for name in names}
     degrees = 360.0 * design.cycle_turns * fraction
-    readouts = [Readout("machine", "°", degrees), *(Readout(name, unit, y) for name, (y, unit) in now.items())]
-    return Scene(parts=tuple(parts), marks=tuple(marks), chart=_chart(design, degrees), readouts=tuple(readouts))
+    readouts, chart = [Readout("machine", "°", degrees)], None
+    if len(names) <= _MOST_CURVES:
+        now = {name: _shown(design, name, degrees) for name in names}
+        readouts += [Readout(name, unit, y) for name, (y, unit) in now.items()]
+        chart = _chart(design, degrees)
+    return Scene(parts=tuple(parts), marks=tuple(marks), chart=chart, readouts=tuple(readouts))
 
 
 def _own(design: Machine, name: str, fraction: Reals) -> Scene:
