@@ -190,15 +190,17 @@ def _refused(error: DesignFileError, options: BatchOptions) -> int:
 
 # Every command that one design file of a batch asks for; nothing that it does can end the batch
 
-_AT_A_TIME = 100
-"""Files after which a process frees what they left: at most 0.3 MB each, but that of a million files is much."""
+_AT_A_TIME, _ALL = 100, 1000
+"""Files after which a process frees what the last ones left, and what all left: at most 0.3 MB each, but that of a
+million files is much. Looking at all takes the longer the more results there are."""
 _files = itertools.count(1)
 
 
 def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
     """What became of each command that a file asks for; nothing raised here ends a batch."""
-    if next(_files) % _AT_A_TIME == 0:
-        gc.collect()
+    number = next(_files)
+    if number % _AT_A_TIME == 0:
+        gc.collect(1 if number % _ALL else 2)
     if options.unchanged is not Unchanged.SKIP:
         return list(_Computing(path, options).outcomes())
 

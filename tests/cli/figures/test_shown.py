@@ -369,7 +369,9 @@ def test_a_machine_of_many_members_has_paper_for_their_names(count: int) -> None
         assert len(boxes) == count
         assert all(upper.y0 > lower.y1 for upper, lower in pairwise(boxes))
     scene = machine.build(made, np.array([0.0]))
-    assert (scene.chart, [each.label for each in scene.readouts]) == (None, ["machine"]), "values and curves fill a film"
+    assert (scene.chart, [each.label for each in scene.readouts]) == (None, ["machine"]), (
+        "values and curves fill a film"
+    )
     circle = settled(machine.circle_sheet(made))
     boxes = [text.get_window_extent() for text in circle.axes[0].texts if text.get_text().startswith("member ")]
     assert len(boxes) == count
