@@ -96,9 +96,13 @@ providers._get_local_constants = _no_local_constants
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Of a test marked `quick(count)` so many cases stay in `make test`, from the first on evenly spread."""
+    """Of a test marked `quick(count)` so many cases stay in `make test`, from the first on evenly spread.
+
+    A function that is marked `slow` as well would have none: only single cases may be."""
     cases: dict[tuple[Path, str], list[pytest.Item]] = {}
     for item in items:
+        if {mark.name for mark in getattr(getattr(item, "function", None), "pytestmark", [])} >= {"quick", "slow"}:
+            raise pytest.UsageError(f"{item.nodeid} is marked slow and quick: no case of it would be quick")
         if item.get_closest_marker("quick") and not any(map(item.get_closest_marker, ("slow", "stress"))):
             cases.setdefault((item.path, item.nodeid.partition("[")[0]), []).append(item)
     for found in cases.values():

@@ -160,7 +160,6 @@ def test_schema_and_settings_of_an_editor(gearlink: Any, tmp_path: Path) -> None
     assert settings.read_text() == "{}"
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("folder", ["none/of/it", ""])
 def test_schema_says_where_it_cannot_write(gearlink: Any, tmp_path: Path, folder: str) -> None:

@@ -82,15 +82,25 @@ def quick_cases() -> list[str]:
     return sorted([*(f"{name}[{i}]" for name, kept in KEPT.items() for i in kept), "test_without_cases"])
 
 
-def test_even_spread_of_the_cases_is_quick(tmp_path: Path, request: pytest.FixtureRequest) -> None:
-    """What the hook of conftest.py leaves unmarked of the cases that pytest makes of a module."""
-    path = tmp_path / "test_cases.py"
-    path.write_text(CASES)
+def hooked(path: Path, text: str, request: pytest.FixtureRequest) -> list[pytest.Item]:
+    """The cases that pytest makes of a module, as the hook of conftest.py leaves them."""
+    path.write_text(text)
     items = list(request.session.genitems(pytest.Module.from_parent(request.session, path=path)))
     hooks = request.config.pluginmanager.get_plugin(str(ROOT / "tests" / "conftest.py"))
     hooks.pytest_collection_modifyitems(items)
+    return items
+
+
+def test_even_spread_of_the_cases_is_quick(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    items = hooked(tmp_path / "test_cases.py", CASES, request)
     kept = [item for item in items if not any(map(item.get_closest_marker, ("slow", "stress")))]
     assert sorted(item.nodeid.rpartition("test_cases.py::")[2] for item in kept) == quick_cases()
+
+
+def test_no_test_is_slow_and_quick(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    text = "import pytest\n\n\n@pytest.mark.slow\n@pytest.mark.quick(1)\ndef test_both(): ...\n"
+    with pytest.raises(pytest.UsageError, match="test_both is marked slow and quick"):
+        hooked(tmp_path / "test_both.py", text, request)
 
 
 @pytest.mark.slow

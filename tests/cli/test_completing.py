@@ -185,7 +185,6 @@ def _script(shell: str) -> str:
 
 
 @LINUX
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("shell", "line", "wanted"),

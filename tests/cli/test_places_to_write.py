@@ -135,7 +135,6 @@ def test_a_file_of_that_name_is_a_path(gearlink: Any, box: Path) -> None:
     assert "kind: slider-crank" in (box / "-").read_text()
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("line", [("export", "--as", "csv"), ("crank", "--plot", "--plot-format", "svg")])
 def test_a_file_that_takes_the_place_of_another_design_is_told(

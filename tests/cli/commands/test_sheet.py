@@ -284,7 +284,6 @@ def test_extremes_are_named_within_their_panels() -> None:
                 assert box.x1 <= panel.x1 + 1.0, words.get_text()
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "keys"), [("ty460", {}), ("swing_gripper", {"cam__shaft_radius": 40.0})])
 def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) -> None:

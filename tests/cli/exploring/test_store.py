@@ -388,7 +388,6 @@ def test_damage_is_seen_or_changes_nothing(finished: bytes, tmp_path: Path) -> N
     assert len(found) > sum(each in refusals for each in found) > len(found) // 4, "both ends are tried"
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("seed", mostly_slow([*range(60)], 8))
 def test_a_damaged_store_is_no_fault_of_the_program(
@@ -436,7 +435,6 @@ def begun_by(monkeypatch: pytest.MonkeyPatch, **other: str) -> None:
     monkeypatch.setattr(stores, "program", lambda: {**own, **other})
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["gearlink", "python", "numpy", "scipy", "cpu"])
 def test_a_store_of_another_program_is_shown_but_not_continued(

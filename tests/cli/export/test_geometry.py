@@ -376,7 +376,6 @@ def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: 
     assert np.median(reach) == pytest.approx(roller, rel=0.0, abs=2.0 * T + AGAIN)
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["contour", "return_contour"])
 def test_a_cycle_is_one_closed_contour_round_the_roller(name: str) -> None:

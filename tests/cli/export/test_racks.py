@@ -29,7 +29,6 @@ def rack_part(given: Any, form: CurveForm = CurveForm.POLYLINE) -> Any:
     return contour(parts.makers(design(given))["rack"](), 1e-3, form)
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("given", [worked("rack_drive"), BENT], ids=["spur", "helical"])
 @pytest.mark.parametrize("form", list(CurveForm))

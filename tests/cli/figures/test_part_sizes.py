@@ -87,7 +87,6 @@ def digits(value: float) -> str:
     return f"{value:.3f}".rstrip("0").rstrip(".")
 
 
-@pytest.mark.slow
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("given", "sheet", "parts"),
@@ -269,7 +268,6 @@ def test_a_planar_cam_has_the_bore_of_its_shaft() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["wide_swing_cycle", "wide_swing_twin_cam"])
 def test_extreme_radii_are_those_of_the_curve_and_not_of_its_chords(name: str) -> None:
     """At 1:2 the nodes of the outline may miss an extreme by 0.02 mm."""
@@ -306,7 +304,6 @@ ODD = [
 ]
 
 
-@pytest.mark.slow
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "keys"), ODD)
 def test_words_keep_clear_and_within_the_frame_at_odd_proportions(name: str, keys: dict[str, Any]) -> None:

@@ -22,7 +22,6 @@ def drawn(name: str, command: str, **keys: Any) -> Sheet:
     return sheet(f"wide_swing_{name}", command, **keys)
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", mostly_slow(["twin_cam", "slider", "twin_rocker", "oscillating_cam"], 2))
 def test_law_is_the_table_s(name: str) -> None:

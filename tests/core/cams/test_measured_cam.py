@@ -120,7 +120,6 @@ def cut(laws: tuple[str, str], ends: tuple[float, float, float, float], lift: fl
 
 
 @pytest.mark.slow
-@pytest.mark.quick(1)
 @pytest.mark.parametrize("laws", [("cycloidal", "modified-sine"), ("polynomial-345", "modified-trapezoid")])
 @settings(max_examples=4, deadline=None)
 @given(

@@ -204,7 +204,6 @@ def three(gears: dict[str, Any], command: str = "dwell", **sections: Any) -> Any
     return factory.design(data | sections, command=f"synth {command}")
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("window", "angle", "kept"), [(55.0, 35.0, True), (38.0, 40.0, True), (55.0, 40.0, False), (15.0, 40.0, True)]

@@ -100,7 +100,6 @@ def test_example_3_as_printed_collides_and_says_why():
 # A second way
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)

@@ -79,7 +79,6 @@ TWO_GEARS: dict[str, Any] = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(("given", "distance"), [(FEED, 5.0), (FEED, 20.0), (FEED, 60.0), (TWO_GEARS, 20.0)])
 def test_gentlest_arrival_is_the_least_of_all(given: Any, distance: float) -> None:

@@ -92,7 +92,6 @@ def study(law: dict[str, Any], **section: Any) -> Any:
     return factory.design(CANDY | {"tolerance": given | section}, command="tolerance")
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "law",

@@ -53,7 +53,6 @@ def test_clearance(direction: float, planes: str, status: str) -> None:
     assert check.status == status
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("direction", [60.0, 109.0])
 def test_gap_of_contours_that_turn_against_each_other(direction: float) -> None:

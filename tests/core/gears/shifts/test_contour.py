@@ -47,7 +47,6 @@ def test_a_point_in_forty_digits() -> None:
     assert min(abs(root - first) for root in roots) < wanted["tolerance"]
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(("teeth", "shift"), [((17, 40), (0.3, 0.2)), ((21, -67), (0.3, -0.3))])
 def test_every_point_lies_on_its_line(teeth: tuple[int, int], shift: tuple[float, float]) -> None:
@@ -74,7 +73,6 @@ def test_shifts_whose_corners_cut_into_fillets_are_not_free() -> None:
     assert found.is_free(shortened)
 
 
-@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "keys",
