@@ -155,7 +155,6 @@ def _length(forces: Reals) -> Reals:
 
 
 _TEETH = ("mesh", "rack")
-_CHANGES = 3
 
 
 @dataclass(frozen=True)
@@ -312,7 +311,8 @@ def solution_of(
 
     Notes
         A system a row, solved once with all right sides. Where a second roller carries, its column takes the place of
-        the first one's: x_c' = x_c/y_c, x' = x - y x_c', A y = the new column.
+        the first one's: x_c' = x_c/y_c, x' = x - y x_c', A y = the new column; the new columns of the pairs that
+        follow are exchanged like all others.
     """
     system = System(mechanism, masses)
     meshes = meshes_of(mechanism)
@@ -353,22 +353,39 @@ def settled(
         NoSolution - where the system is singular
         SelfLocking - where the mechanism locks itself
     Notes
-        Where the friction outweighs what a pair of rollers bears, the other roller carries than without it.
+        Where the friction outweighs what a pair of rollers bears, the other roller carries than without it; and the
+        rollers of one pair may decide which of another carries. In each row the first pair whose roller does not push
+        is changed: that ends (Murty's rule) where sizes and signs are unique, of n pairs after 2^n changes at most.
     """
-    if friction is None:
-        found = solution_of(mechanism, masses, applied, gravity, speed, None)
-        return found, np.abs(found.rubbing.free[found.rubbing.places[:, 0]]).T
     found = solution_of(mechanism, masses, applied, gravity, speed, friction)
-    for _ in range(_CHANGES):
-        sizes = found.rubbing.settled()
+    if friction is None and len(found.pulled) < 2:  # alone it keeps the sign that it was chosen by
+        return found, _sizes(found, friction)
+    for _ in range(2 ** len(found.pulled) + 1):
+        sizes = _sizes(found, friction)
         unknowns = found.rubbing.unknowns(sizes) if found.pulled else found.rubbing.free
-        pulled = {name: unknowns[found.system.place(name)] < 0.0 for name in found.pulled}
-        if all(np.array_equal(pulled[name], used) for name, used in found.pulled.items()):
-            break
+        pulled = _first_changed(found, unknowns)
+        if pulled is None:
+            return found, sizes
         found = solution_of(mechanism, masses, applied, gravity, speed, friction, pulled)
-    else:
-        sizes = found.rubbing.settled()  # rows at which either roller would have it the other way: both are idle there
-    return found, sizes
+    return found, _sizes(
+        found, friction
+    )  # rows at which either roller would have it the other way: both are idle there
+
+
+def _sizes(found: Solution, friction: Coefficients | None) -> Reals:
+    """The sizes that make themselves; without friction the separating forces alone."""
+    if friction is None:
+        return np.asarray(np.abs(found.rubbing.free[found.rubbing.places[:, 0]]).T)
+    return found.rubbing.settled()
+
+
+def _first_changed(found: Solution, unknowns: Reals) -> Pulled | None:
+    """The rollers that carry, in each row the first pair changed whose roller pulls; None: there is none."""
+    pulled, done = {}, np.zeros(found.mechanism.rows, dtype=bool)
+    for name, used in found.pulled.items():
+        changed = ((unknowns[found.system.place(name)] < 0.0) != used) & ~done
+        pulled[name], done = used ^ changed, done | changed
+    return pulled if done.any() else None
 
 
 def _with_separation(solved: Reals, places: Sequence[tuple[int, int]], at: int) -> Reals:
@@ -382,8 +399,8 @@ def _exchange(solved: Reals, new: int, place: int, pulled: Mask) -> None:
     """Put another column instead of one, at the rows where its roller carries."""
     if pulled.any():
         y = solved[new]
-        for k in range(new):
-            if not solved[k, place].any():
+        for k in range(len(solved)):
+            if k == new or not solved[k, place].any():
                 continue
             share = np.divide(solved[k, place], y[place], out=np.zeros_like(y[place]), where=pulled)
             solved[k] -= y * share
