@@ -970,7 +970,7 @@ class Scuffing:
 
     Source
         ISO/TR 13989-2, ISO/TS 6336-21: all values of a KISSsoft report are met to the digits that it prints; X_Q where
-        it is not 1, and X_eps where a part of the path is longer than a base pitch, from memory
+        it is not 1, X_eps where a part of the path is longer than a base pitch, and X_mp of several mates from memory
     """
 
     rated: Rated
@@ -1113,12 +1113,24 @@ class Scuffing:
         spread = abs(self._path.pair.center_distance) ** 0.25
         return float(hot / spread * self.contact_ratio_factor / (self.approach_factor * self.relief_factor))
 
+    @property
+    def mates(self) -> int:
+        """n_p, the mates of that gear of the pair which has more: a sun has its planets, a planet sun and ring."""
+        if self._conditions.system == "sun-planet":
+            return max(self._conditions.planets, 2)
+        return 2 if any(self.rated.data.idlers) else 1
+
+    @property
+    def mating_factor(self) -> float:
+        """X_mp of the heat that all mates of a gear bring into it."""
+        return (1.0 + self.mates) / 2.0
+
     @cached_property
     def mass_temperature(self) -> float:
         """theta_M [deg C]."""
         oil = self._conditions.oil_temperature
         assert oil is not None, "given with the load stage"
-        return oil + 0.7 * _LUBRICATION * self.flash_temperature
+        return oil + 0.7 * _LUBRICATION * self.mating_factor * self.flash_temperature
 
     @cached_property
     def integral_temperature(self) -> float:

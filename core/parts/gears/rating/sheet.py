@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.report import Table
 
 if TYPE_CHECKING:
+    from gearlink.core.parts.gears.rating.conditions import Conditions
     from gearlink.core.parts.gears.rating.rated import Rated, Scuffing
 
 _1, _2, _3, _5, _6 = (f"ISO 6336-{part}" for part in (1, 2, 3, 5, 6))
@@ -382,7 +383,14 @@ def _scuffing(rated: Rated) -> Iterator[Line]:
         confirmed=short,
     )
     yield _relief(rated, found)
+    yield from _temperatures(found, given)
+
+
+def _temperatures(found: Scuffing, given: Conditions) -> Iterator[Line]:
+    rule = f"R10 {_SCUFFING}"
     yield Line("theta_fl", "mean flash temperature", (found.flash_temperature, None), "K", rule, _said(v=found.speed))
+    met, inputs = found.mates == 1, _said(n_p=found.mates)
+    yield Line("X_mp", "multiple mating factor", (found.mating_factor, None), "1", rule, inputs, confirmed=met)
     inputs = _said(oil=given.oil_temperature, theta_fl=found.flash_temperature)
     yield Line("theta_int", "integral temperature", (found.integral_temperature, None), "deg C", rule, inputs)
     inputs = _said(stage=given.scuffing_stage, nu_40=given.viscosity_40)

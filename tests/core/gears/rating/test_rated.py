@@ -372,6 +372,34 @@ def test_the_flash_temperature_from_the_file_on(helix: float) -> None:
     assert found.integral_temperature == pytest.approx(80.0 + 2.2 * flash, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("rating", "mates"),
+    [({}, 1), ({"system": "sun-planet", "planets": 1}, 2), ({"system": "sun-planet", "planets": 3}, 3)],
+)
+def test_every_mate_heats_its_gear(rating: dict[str, Any], mates: int) -> None:
+    """Half of a mesh's heat goes into either gear: `mates` halves into the one, and one into the other."""
+    oil = {"vg": 220, "viscosity_100": 19, "temperature": 80, "scuffing_stage": 12}
+    found = rated(rating=rating | {"lubricant": oil}).data.rated.scuffing
+    mean = np.mean([mates, 1.0])
+    assert found.mass_temperature - 80.0 == pytest.approx(0.7 * mean * found.flash_temperature, rel=EXACT)
+    assert found.integral_temperature - found.mass_temperature == pytest.approx(1.5 * found.flash_temperature, rel=1e-9)
+
+
+def test_the_scuffing_temperature_is_that_of_the_test_of_the_oil() -> None:
+    """Printed for stage 14; of 100 mm^2/s the viscosity counts nothing; 3.726 stage^2 N m is the torque, within 3 %."""
+
+    def temperature(stage: int, vg: float) -> float:
+        oil = {"vg": vg, "viscosity_100": 11, "temperature": 60, "scuffing_stage": stage}
+        return float(rated(rating={"lubricant": oil}).data.rated.scuffing.scuffing_temperature)
+
+    assert temperature(14, 220) == pytest.approx(455.17, abs=0.005)
+    for stage in range(8, 15):
+        rise = temperature(stage, 100) - 80.0
+        assert rise == pytest.approx(0.53 * 3.726 * stage**2, rel=0.03)
+        bath, flash = 0.23 * rise / 0.53, 0.3 * rise / 0.53
+        assert temperature(stage, 320) - 80.0 - bath == pytest.approx(flash * 3.2**-0.02, rel=1e-12)
+
+
 def test_the_face_load_of_the_root_is_that_of_the_height() -> None:
     """The exponent as the standard prints it, (b/h)^2/(1 + b/h + (b/h)^2), b/h of the higher teeth, at least 3."""
     for width, least in ((40.0, 4.0), (20.0, 3.0)):

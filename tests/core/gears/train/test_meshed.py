@@ -368,6 +368,18 @@ def test_teeth_of_an_idler_are_bent_both_ways():
     assert [data.idlers for data in bars.mesh_data.values()] == [(False, True), (True, False)]
 
 
+def test_an_idler_is_heated_by_both_of_its_mates():
+    """X_mp = 1.5: 0.7 of it and 1.5 of the flash temperature above the oil, in either mesh."""
+    oil = {"vg": 220, "viscosity_100": 19, "temperature": 60, "scuffing_stage": 12}
+    rating = {"life": 20000, "material": "16MnCr5", "grade": 6, "lubricant": oil}
+    keys = {"face_width": 20.0, "load": {"torque": 20.0, "speed": 300.0}, "rating": rating}
+    one = design(THREE | {"gears": THREE["gears"] | keys}, command="gear")
+    for mesh, data in one.mesh_data.items():
+        alone = replace(data, idlers=(False, False)).rated.scuffing.integral_temperature
+        rise = (one.raw(f"{mesh}.integral_temperature") - 60.0) / (alone - 60.0)
+        assert rise == pytest.approx((0.7 * 1.5 + 1.5) / 2.2, rel=1e-12)
+
+
 def test_helix_widens_the_links_of_three_gears_and_nothing_else():
     spur = design(THREE, command="analyze")
     gears = THREE["gears"] | {"helix_angle": 15.0}
