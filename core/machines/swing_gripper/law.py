@@ -68,6 +68,14 @@ def balanced(rest: tuple[float, float, float], ratio: float, laws: tuple[Law, La
     return SixPhases(first, constant, share * first, far, room - (1.0 + share) * first, near)
 
 
+def heights(lengths: Sequence[float], speed: float, fast: Law, slow: Law) -> tuple[float, float, float]:
+    """Swing at the ends of accelerate, constant and decelerate [rad]; the phases in deg."""
+    spans = [length * _RADIAN for length in lengths]
+    first = speed * fast.kappa * spans[0]
+    second = first + speed * spans[1]
+    return first, second, second + speed * slow.kappa * spans[2]
+
+
 class LawOfEach:
     """The laws of one phase of many grippers.
 
@@ -125,11 +133,7 @@ class SixPhaseLaw:
 
     @cached_property
     def _heights(self) -> tuple[float, float, float]:
-        """Swing at the ends of accelerate, constant and decelerate [rad]."""
-        spans = [length * _RADIAN for length in self.lengths]
-        first = self.speed * self.accelerate.kappa * spans[0]
-        second = first + self.speed * spans[1]
-        return first, second, second + self.speed * self.decelerate.kappa * spans[2]
+        return heights(self.lengths, self.speed, self.accelerate, self.decelerate)
 
     @property
     def total_swing(self) -> float:

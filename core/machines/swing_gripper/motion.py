@@ -12,7 +12,7 @@ from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_sec
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import unlike, within
-from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases, balanced, require_law
+from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases, balanced, heights, require_law
 from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, TwoWays, require_swing, two_ways
 from gearlink.core.numerics.arrays import Reals, largest, turn_degrees
 from gearlink.core.parts.cams.laws import Law, law
@@ -110,9 +110,8 @@ class Timing:
         """The six-phase law; its constant speed is R/l_EF."""
         speed = self.spec.cylinder.radius / self.spec.arm.length
         fast, slow = (self._law_of(phase, speed) for phase in ("accelerate", "decelerate"))
-        phases = self.phases
-        swing = speed * (fast.kappa * phases.accelerate + phases.constant + slow.kappa * phases.decelerate)
-        made = SixPhaseLaw(phases, speed, fast, slow, self._law_of("return", swing))
+        swing = math.degrees(heights(self.phases, speed, fast, slow)[-1])
+        made = SixPhaseLaw(self.phases, speed, fast, slow, self._law_of("return", swing))
         self._require_swing_below_a_turn(made)
         self._require_stated_swing(made)
         return made

@@ -64,8 +64,7 @@ def deviation(motion: FollowerMotion, rows: int, phi: Reals) -> Reals:
 
 def greatest_error(motion: FollowerMotion, rows: int) -> float:
     """Maximum error of the position between the rows [mm or rad], refined."""
-    places = [TURN * k / (rows - 1) for k in range(1, rows - 1)]
-    apart = sorted({*places, *motion.joints})
+    apart = sorted({*np.linspace(0.0, TURN, rows)[1:-1].tolist(), *motion.joints})
     joints = [b for a, b in zip([-1.0, *apart], apart, strict=False) if b - a > 1e-9]
     return maximum_over(lambda phi: np.abs(deviation(motion, rows, phi)), joints=joints, fewest=_BETWEEN).value
 

@@ -12,8 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design
+from scipy.special import ellipe
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.cam_drives.grooved import Groove, Path
 from gearlink.core.parts.cams.output_motion import OutputMotion
 
 GEAR: dict[str, Any] = {
@@ -67,7 +69,13 @@ def test_path_and_its_derivatives(data: dict[str, Any], roller: Any) -> None:
     a, b, c = back.place, path.place, there.place
     circle = 2.0 * ((b - a).conj() * (c - b)).imag / (np.abs(b - a) * np.abs(c - b) * np.abs(c - a))
     assert bend == pytest.approx(circle, abs=1e-6)
-    assert np.abs(found.moving.at(INSIDE, 0).connections[-1].at - path.place).max() < 1e-12
+    contact = found.moving.at(INSIDE, 2).connections[-1]
+    assert np.abs(contact.at - path.place).max() < 1e-12
+    # the ground curve as the loads see it: off its tangent by half its curvature times the square of the way along
+    way = there.place - path.place
+    off = (np.conj(contact.normal) * way).real
+    along = (np.conj(1j * contact.normal) * way).real
+    assert off == pytest.approx(-0.5 * contact.curvature * along**2, rel=1e-2, abs=1e-8)
 
 
 @pytest.mark.parametrize(("data", "on", "arm"), [(GEAR, "sun", 40.0), (LINKAGE, "output", 60.0)])
@@ -88,6 +96,29 @@ def test_pressure_angle_by_the_force_in_the_groove(data: dict[str, Any], on: str
         x, first = (each for each in found.lever(INSIDE, 1))
         tangent = (70.0 * np.cos(x) + 40.0 * (1.0 + first)) / (70.0 * np.sin(x))
         assert np.tan(found.groove.pressure_angle(INSIDE)) == pytest.approx(tangent, rel=1e-10)
+
+
+@pytest.mark.parametrize("turns", [1.0, -1.0])
+def test_a_groove_has_its_inside_whichever_way_it_is_run(turns: float) -> None:
+    """An ellipse: the walls enclose less and more than the path, and the curvature is positive where it is convex."""
+
+    def path(theta: Any) -> Path:
+        wave = [
+            np.array([30.0, 20.0j])[:, None] * np.array([np.cos(turns * theta + k), np.sin(turns * theta + k)])
+            for k in (0.0, 0.5 * math.pi, math.pi)
+        ]
+        place, first, second = (each.sum(axis=0) for each in wave)
+        return Path(place, turns * first, second, np.ones_like(place))
+
+    def enclosed(place: Any) -> float:
+        return abs(float(np.sum((np.conj(place) * np.roll(place, -1)).imag))) / 2.0
+
+    groove, theta = Groove(path, 4.0), np.linspace(0.0, 2.0 * math.pi, 4000, endpoint=False)
+    inner, outer = map(enclosed, groove.walls(theta))
+    middle, around = math.pi * 600.0, 8.0 * 30.0 * float(ellipe(1.0 - (20.0 / 30.0) ** 2)) / 2.0
+    assert inner == pytest.approx(middle - 4.0 * around + 16.0 * math.pi, rel=1e-5)
+    assert outer == pytest.approx(middle + 4.0 * around + 16.0 * math.pi, rel=1e-5)
+    assert groove.curvature(np.zeros(1))[0] == pytest.approx(30.0 / 20.0**2, rel=1e-12)
 
 
 def test_extremes_are_those_of_fine_rows() -> None:

@@ -123,6 +123,28 @@ def test_greatest_forces_are_those_of_fine_rows() -> None:
     assert design(GIVEN, **FRICTION, uneven=1.5).pin_force_max == pytest.approx(1.5 * found.pin_force_max, rel=1e-12)
 
 
+@pytest.mark.parametrize("fixed", ["ring", "output"])
+def test_each_joint_loses_its_force_times_its_sliding(fixed: str) -> None:
+    """Speeds from the mechanism: of output pins and bearings against their disc, of a disc against the ring."""
+    keys = {**GIVEN, "fixed": fixed, "bearing_radius": 10.0}
+    phi = np.linspace(0.1, 6.0, 23)
+    found = {
+        name: design(keys, friction={"pins": 0.0, "output_pins": 0.0, "bearing": 0.0} | {name: 0.1})
+        for name in ("pins", "output_pins", "bearing")
+    }
+    any_one = found["pins"]
+    links, shares = any_one.moving.at(phi, 1).links, any_one.disc.shares(phi, 6, 30.0)
+    disc = links["disc_1"].turn.first
+    ring = links["output"].turn.first if fixed == "output" else 0.0
+    swinging, rolling = np.abs(1.0 - disc), np.abs(disc - ring)
+    outputs = shares.outputs.sum(axis=1)
+    assert found["output_pins"]._losses(phi) == pytest.approx(0.1 * 3.0 * outputs * swinging, rel=1e-12)
+    bearing = np.abs(shares.of_ring + outputs)
+    assert found["bearing"]._losses(phi) == pytest.approx(0.1 * 10.0 * bearing * swinging, rel=1e-12)
+    levers = np.abs(shares.places - 3.0 * 12.0)
+    assert found["pins"]._losses(phi) == pytest.approx(0.1 * (shares.pins * levers).sum(axis=1) * rolling, rel=1e-12)
+
+
 @pytest.mark.slow
 def test_backlash_is_where_the_ground_disc_meets_a_pin() -> None:
     """By the distance of the ground profile from every pin, the disc turned to and fro."""

@@ -149,6 +149,30 @@ def test_a_servo_table_errs_as_much_between_its_rows_as_close_places_show() -> N
         rows_for(motion, 1e-18)
 
 
+class Bump:
+    """(x (b - x))^3 on one of equal intervals and 0 elsewhere: the quintics between the rows know nothing of it."""
+
+    joints = ()
+
+    def __init__(self, interval: int, count: int) -> None:
+        self.start, self.width = 2.0 * math.pi * interval / count, 2.0 * math.pi / count
+
+    def evaluate(self, phi: Any, order: int = 3, **_side: int) -> list[Any]:
+        x = np.clip((phi - self.start) / self.width, 0.0, 1.0)
+        cube = np.polynomial.Polynomial([0.0, 1.0, -1.0]) ** 3
+        return [self.width ** (6 - n) * cube.deriv(n)(x) if n else self.width**6 * cube(x) for n in range(order + 1)]
+
+
+@pytest.mark.parametrize(("interval", "count"), [(0, 8), (3, 8), (7, 8), (2, 3600), (1802, 3600)])
+def test_a_servo_table_errs_by_what_lies_between_two_rows(interval: int, count: int) -> None:
+    """(b/2)^6 in the middle, also where 2048 points about the turn leave the interval out."""
+    motion = Bump(interval, count)
+    assert greatest_error(motion, count + 1) == pytest.approx((math.pi / count) ** 6, rel=1e-6)
+    places = (np.arange(count) + 0.5) * 2.0 * math.pi / count
+    found = np.abs(deviation(motion, count + 1, places)) > 1e-9 * (math.pi / count) ** 6  # rounding of a row beside it
+    assert np.flatnonzero(found).tolist() == [interval]
+
+
 # Laws with given ends
 
 

@@ -57,6 +57,24 @@ def test_the_force_is_the_work_of_the_spring_and_the_mass_the_energy() -> None:
     assert design.raw("stop_mass") == pytest.approx(twice / lever**2, rel=1e-7)
 
 
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("swing_sense", [1, -1])
+@pytest.mark.parametrize("angle", [49.0, 120.0])
+def test_the_stop_holds_the_arm_where_the_roller_leaves_its_cam(angle: float, swing_sense: int, assembly: int) -> None:
+    """In the near dwell the cam is a circle about its axis: on the stop, a little into the swing, its roller is farther
+    out; else the spring, which presses it on the cam, would turn the arm away from the stop."""
+    keys = {"cam__roller__angle": angle, "cam__return_roller": None}
+    design = gripper(**keys, swing_sense=swing_sense, assembly=assembly)
+    turn = angles(design, 1e-4)[0] - angles(design, 0.0)[0]
+    center, pivot = complex(design.main_cam.path(np.zeros(1), 1).position[0]), -design.cams.from_pivot
+    moved = pivot + (center - pivot) * np.exp(1j * turn)
+    if abs(moved) > abs(center):
+        assert design.raw("stop_force") > 0.0
+    else:
+        with pytest.raises(NoSolution, match="turns the arm away"):
+            design.raw("stop_force")
+
+
 def test_the_law_meets_the_stop_where_it_is_said_to() -> None:
     design = gripper()
     rates = {"stop_impact_angle": "stop_impact_speed", "take_off_angle": "take_off_speed"}

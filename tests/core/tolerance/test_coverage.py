@@ -81,6 +81,25 @@ def estimates(seed: int, samples: int) -> dict[str, Estimate]:
     return found | ends
 
 
+def test_the_slope_of_a_quantile_is_that_across_its_interval() -> None:
+    """Read back from `off`: chords of +-h, the half-width of F(q) by Student's t (2.364624 of 7 degrees of freedom).
+
+    Of q = p^3 that is 3 p^2 + h^2, which the samples know to a tenth.
+    """
+    random = np.random.default_rng(3)
+    rows = [window(np.sort(random.random(4096)) ** 3, 0.4) for _ in range(8)]
+    found = quantile(rows, 0.4)
+    below = np.array([one.share_below(found.value) for one in rows])
+    half = 2.3646242510 * below.std(ddof=1) / math.sqrt(8.0)
+    slope = found.off / (below.mean() - below)
+    assert slope == pytest.approx(np.full(8, slope[0]), rel=1e-9)
+    ordered = np.sort(np.concatenate([one.values for one in rows]))
+    first = sum(one.first for one in rows)
+    ends = [np.interp((0.4 + way * half) * 8 * 4096 - 0.5 - first, np.arange(ordered.size), ordered) for way in (-1, 1)]
+    assert slope[0] == pytest.approx((ends[1] - ends[0]) / (2.0 * half), rel=1e-9)
+    assert slope[0] == pytest.approx(3.0 * 0.16 + half**2, rel=0.1)
+
+
 @pytest.mark.slow
 def test_everything_printed_covers() -> None:
     hits: dict[str, int] = defaultdict(int)

@@ -21,6 +21,13 @@ def _cases(what: str) -> list[dict[str, Any]]:
     return [case for case in CASES if case["input"]["what"] == what]
 
 
+@pytest.mark.parametrize(("size", "grade", "half"), [(25.0, 7, 10.5), (40.0, 6, 8.0), (60.0, 9, 37.0), (8.0, 5, 3.0)])
+def test_js_lies_evenly_about_the_size(size: float, grade: int, half: float) -> None:
+    """Printed in ISO 286-2, in um."""
+    for letters in ("js", "JS"):
+        assert limit_deviations(size, f"{letters}{grade}") == pytest.approx((-half / 1e3, half / 1e3), rel=1e-12)
+
+
 @pytest.mark.parametrize("size", [0.5, 3.0, 3.001, 24.0, 50.0, 120.0, 260.0, 500.0])
 @pytest.mark.parametrize("letter", "defgh")
 def test_a_hole_is_the_shaft_turned_about(size: float, letter: str) -> None:

@@ -169,6 +169,44 @@ def test_given_factors_win() -> None:
     assert origins["K_Fbeta"] == "computed"
 
 
+@pytest.mark.parametrize("gear", [0, 1])
+def test_the_stiffness_of_teeth_is_of_the_second_degree_in_the_shift(gear: int) -> None:
+    """1/c'_th by three shifts, at constant other shift: twice 0.00529 and 0.00182 um mm/N (C_8, C_9 of ISO 6336-1)."""
+    found = []
+    for shift in (-0.2, 0.1, 0.4):
+        shifts = [shift, 0.1] if gear == 0 else [0.1, shift]
+        found.append(1.0 / rated(profile_shift=shifts).data.rated.bodies.theoretical_stiffness)
+    second = (found[0] - 2.0 * found[1] + found[2]) / 0.3**2
+    assert second == pytest.approx(2.0 * (0.00529, 0.00182)[gear], rel=1e-9)
+
+
+@pytest.mark.parametrize(("position", "factor"), [("a", 0.8), ("b", -0.8), ("c", 1.33), ("e", -1.0)])
+def test_a_shaft_bends_with_the_offset_of_its_pinion(position: str, factor: float) -> None:
+    """f_sh over that without a shaft, |1 + K' l s/d^2 (d/d_sh)^4 - 0.3| + 0.3, over offsets where it turns its sign."""
+    plain = rated().data.rated.at_load.shaft_deflection
+    bent = set()
+    for offset in (0.0, 20.0, 60.0, 150.0):
+        shaft = {"position": position, "span": 300.0, "offset": offset, "diameter": 60.0}
+        ratio = rated(rating={"face": {"shaft": shaft}}).data.rated.at_load.shaft_deflection / plain
+        moment = factor * 300.0 * offset / 92.0**2 * (92.0 / 60.0) ** 4
+        assert ratio == pytest.approx(abs(0.7 + moment) + 0.3, rel=1e-12)
+        bent.add(0.7 + moment > 0.0)
+    assert bent == ({True} if factor > 0.0 else {True, False})
+
+
+def test_every_factor_of_the_load_bends_the_teeth() -> None:
+    """K_A K_gamma K_v K_Fbeta K_Falpha: doubled one by one, each doubles the root stress and halves the safety."""
+    given_k = {"application": 1.1, "distribution": 1.2, "dynamic": 1.3, "face_bending": 1.4, "transverse_bending": 1.5}
+    once, safety = (of(name, load={"factors": given_k}) for name in ("root_stress", "safety_bending"))
+    for name, value in given_k.items():
+        twice = of("root_stress", load={"factors": given_k | {name: 2.0 * value}})
+        assert twice == pytest.approx([2.0 * each for each in once], rel=1e-12), name
+        less = of("safety_bending", load={"factors": given_k | {name: 2.0 * value}})
+        assert less == pytest.approx([0.5 * each for each in safety], rel=1e-12), name
+    nominal = of("nominal_root_stress", load={"factors": given_k})
+    assert once == pytest.approx([1.1 * 1.2 * 1.3 * 1.4 * 1.5 * each for each in nominal], rel=1e-12)
+
+
 def test_crowning_halves_and_a_measured_misalignment_replaces() -> None:
     plain, crowned = rated().data.rated, rated(rating={"face": {"modification": "crowning"}}).data.rated
     assert crowned.at_load.mesh_misalignment == pytest.approx(0.5 * plain.at_load.mesh_misalignment, rel=EXACT)
@@ -185,6 +223,25 @@ def test_the_pinion_s_shaft_is_the_smaller_gear_s() -> None:
     assert turned.raw("safety_pitting")[::-1] == pytest.approx(of("safety_pitting"), rel=1e-9)
 
 
+@pytest.mark.parametrize("deep", [False, True])
+def test_the_load_of_a_helix_is_shared_between_spur_and_wide_teeth(deep: bool) -> None:
+    """f_eps^2 of ISO 6336-3:2019 is straight in eps_beta, from 1, of deep teeth 1/2, to 1/eps_alphan at 1."""
+    teeth = {"module": 2.0, "teeth": [45, 60], "helix_angle": 12.0, "tool": {"addendum": 1.6 if deep else 1.25}}
+    found = {}
+    for width in (5.0, 10.0, 15.0, 60.0):
+        keys = teeth | {"addendum": 1.35 if deep else 1.0, "face_width": width, "profile_shift": [0.0, 0.0]}
+        root = replace(rated(**keys).data.root, edition=2019)
+        eps, overlap = root.virtual_contact_ratio, root.path.overlap_ratio
+        assert (eps >= 2.0) == deep
+        found[overlap] = root.load_distribution**2
+    *inside, wide = found
+    assert max(inside) < 1.0 <= wide
+    assert found[wide] == pytest.approx(1.0 / eps, rel=EXACT)
+    start = 0.5 if deep else 1.0
+    for overlap in inside:
+        assert found[overlap] == pytest.approx(np.interp(overlap, [0.0, 1.0], [start, 1.0 / eps]), rel=EXACT)
+
+
 # Life
 
 
@@ -199,6 +256,15 @@ def test_load_cycles_and_limit_stress_are_each_other_s_inverse(
         assert line.cycles(line.at(cycles)) == pytest.approx(cycles, rel=1e-6)
     assert line.at(1e10) == pytest.approx(long * reference, rel=EXACT)
     assert line.at(1.0) == pytest.approx(line.static, rel=EXACT)
+
+
+@given(st.floats(300, 3000), st.floats(300, 3000))
+def test_at_the_bend_the_influence_is_that_of_its_place_between_the_knees(static: float, reference: float) -> None:
+    """Life factor 1.3 at 1e7 load cycles; influences of 6e5 and 1e9, of the powers that its place gives each."""
+    line = limit_line(Endurance(1e5, 5e7, 1.6), static, reference, 1.0, pitting_allowed=True)
+    share = math.log(1e7 / 6e5) / math.log(1e9 / 6e5)
+    assert line.at(1e7) == pytest.approx(1.3 * static ** (1.0 - share) * reference**share, rel=1e-12)
+    assert line.at(6e5) == pytest.approx(1.6 * static, rel=1e-12)
 
 
 def test_pits_allowed_lengthen_the_line() -> None:
