@@ -28,6 +28,8 @@ MEMBER_SPEED = Rule(
     ("speed", "members"),
     side="<=",
 )
+NEAR = 0.1
+"""At a frequency nearer to a natural one, as a share of it, the main shaft winds up."""
 CRITICAL_SPEED = Rule(
     "GL532",
     "torque of the members near a natural frequency of the main shaft",

@@ -15,6 +15,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import whole_paths
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
+from gearlink.core.machines.machine.codes import NEAR
 from gearlink.core.machines.machine.relations import VALUES, Moment, Relation, Value, Within, common_member
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 
@@ -329,6 +330,12 @@ class Machine(OfMembers):
         """Phases with which the relations hold, and relations that ask for less."""
         from gearlink.core.machines.machine.remedies import candidates
 
+        if check == "critical-speed" and self.spec.shaft is not None and self.spec.speed is not None:
+            import numpy as np
+
+            from gearlink.core.machines.machine.shaft import stiffened
+
+            return stiffened(self.spec.shaft, np.array([2.0 * math.pi / 60.0 * self.spec.speed]))
         return candidates(self) if check == "timing-relation" else ()
 
     def ways_of(self, check: str) -> Iterable[Way]:
@@ -551,10 +558,10 @@ class Machine(OfMembers):
             return
         for f in self.critical_speeds or ():
             off = abs(self.spec.speed / f - 1.0)
-            status: Status = "warn" if off < 0.1 else "pass"
-            what, shown = "distance of the speed from a critical speed", Shown(100.0 * off, 10.0, "%", ">=")
+            status: Status = "warn" if off < NEAR else "pass"
+            what, shown = "distance of the speed from a critical speed", Shown(100.0 * off, 100.0 * NEAR, "%", ">=")
             aside, fix = f"critical speed {short(f)} 1/min", "run at another speed, or stiffen the main shaft"
-            yield codes.CRITICAL_SPEED.check(status, what, off, 0.1, shown=shown, aside=aside, fix=fix)
+            yield codes.CRITICAL_SPEED.check(status, what, off, NEAR, shown=shown, aside=aside, fix=fix)
 
     def require_named(self) -> None:
         """Refuse what the file names and the machine does not have."""

@@ -16,6 +16,7 @@ from gearlink.core.base.report import Check, Quantity, Remedy, Shown, Status, Ta
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
+from gearlink.core.machines.machine.codes import NEAR
 from gearlink.core.machines.machine.design import Machine, OfMembers
 from gearlink.core.machines.machine.series import MOST_TURNS, OnShaft
 from gearlink.core.machines.machine.speeds import own_speeds
@@ -38,7 +39,7 @@ _QUANTITIES = (
 )  # fmt: skip
 _CHECKS = ("member-speed", "motor-torque", "motor-speed", "speed-fluctuation", "critical-speed", "machine-speed")
 _LIMITS = {"lift_off_speed": "lift-off", "residual_speed_limit": "residual-vibration"}
-_NEAR, _SMALL, _NEAR_LIMIT = 0.1, 0.01, 0.9
+_SMALL, _NEAR_LIMIT = 0.01, 0.9
 _SAMPLES = 720
 
 
@@ -281,6 +282,10 @@ class MachineLoads(OfMembers, LoadsDesign):
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:
         """Of its own checks as of any loads; a finding of a member may have less speed of the machine."""
+        if check == "critical-speed" and self.spec.shaft is not None:
+            from gearlink.core.machines.machine.shaft import stiffened
+
+            return stiffened(self.spec.shaft, TURN / _SHEETS * self.given_speed * self._strong[0])
         if check in _CHECKS:
             return super().candidates(check)
         return slower(self) if check in SLOWED else ()
@@ -527,27 +532,31 @@ class MachineLoads(OfMembers, LoadsDesign):
         """GL532: harmonics of the members' torque near a natural frequency."""
         if self.spec.shaft is None:
             return
-        whole = np.abs(self.swing.amplitudes.sum(axis=0))[1:]
-        orders, top = self.swing.orders[1:], float(whole.max())
+        orders, whole = self._strong
         for mode, frequency in enumerate(self.natural_frequencies or (), 1):
             off = np.abs(orders * self.given_speed / (_SHEETS * frequency) - 1.0)
-            off = np.where(whole > _SMALL * top, off, np.inf)
-            near = np.flatnonzero(off < _NEAR)
+            near = np.flatnonzero(off < NEAR)
             what = f"distance of mode {mode} of the main shaft ({short(frequency)} Hz) from harmonics of the torque"
             if not near.size:
-                nearest = float(off.min())
-                value = nearest if math.isfinite(nearest) else None
-                shown = Shown(None if value is None else 100.0 * value, 100.0 * _NEAR, "%")
-                yield codes.CRITICAL_SPEED.check("pass", what, value, _NEAR, side=">=", shown=shown)
+                value = float(off.min()) if off.size else None
+                shown = Shown(None if value is None else 100.0 * value, 100.0 * NEAR, "%")
+                yield codes.CRITICAL_SPEED.check("pass", what, value, NEAR, side=">=", shown=shown)
                 continue
             k = int(near[np.argmax(whole[near])])
-            shown, value = Shown(100.0 * float(off[k]), 100.0 * _NEAR, "%"), float(off[k])
+            shown, value = Shown(100.0 * float(off[k]), 100.0 * NEAR, "%"), float(off[k])
             aside = f"harmonic {orders[k]:g}, {short(float(whole[k]))} N m"
             at = f"{short(float(_SHEETS * frequency / orders[k]))} 1/min"
             fix = "run at another speed, or stiffen the shaft"
             yield codes.CRITICAL_SPEED.check(
-                "warn", what, value, _NEAR, side=">=", shown=shown, aside=aside, at=at, fix=fix
+                "warn", what, value, NEAR, side=">=", shown=shown, aside=aside, at=at, fix=fix
             )
+
+    @property
+    def _strong(self) -> tuple[Reals, Reals]:
+        """Orders of the harmonics of the members' torque that have more than a hundredth of the largest [N m]."""
+        whole = np.abs(self.swing.amplitudes.sum(axis=0))[1:]
+        strong = whole > _SMALL * float(whole.max())
+        return self.swing.orders[1:][strong], whole[strong]
 
     def check_machine_speed(self) -> Iterator[Check]:
         """GL533: the machine's speed against what its members bear."""

@@ -3,20 +3,60 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.torsion import torsional_stiffness
+from gearlink.core.base.remedies.ways import at_least
+from gearlink.core.base.report import Remedy, safely_above
+from gearlink.core.base.torsion import ShaftPiece, torsional_stiffness
+from gearlink.core.machines.machine.codes import NEAR
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.spec import MainShaft
 
 ASSUMED_DAMPING = 0.03
+_SPARE = 1e-9
 _TURN = 2.0 * math.pi
+
+
+def stiffened(shaft: MainShaft, frequencies: Reals) -> Iterator[Remedy]:
+    """The shaft with all stiffnesses, or the diameters that give them, as much greater as keeps off.
+
+    Parameters
+        frequencies : (n,) array [rad/s] - at which something excites the shaft
+    Notes
+        All natural frequencies rise by one ratio, to the nearest that leaves each away from all of these.
+    """
+    natural = Chain.of(shaft).natural
+    ratios = frequencies[:, None] / ((1.0 - NEAR) * natural)
+    for ratio in np.unique(ratios[ratios > 1.0]):
+        remedy: Remedy = ()
+        values: list[Any] = []
+        for i, given in enumerate(shaft.stiffnesses):
+            changes, value = _stiffer(given, f"shaft.stiffnesses[{i}]", float(ratio) ** 2 * (1.0 + _SPARE))
+            remedy, values = (*remedy, *changes), [*values, value]
+        off = frequencies[:, None] / Chain.of(shaft.model_copy(update={"stiffnesses": values})).natural - 1.0
+        if np.all(np.abs(off) >= NEAR):
+            plain = all(isinstance(value, float) for value in values)
+            yield (("shaft.stiffnesses", tuple(values)),) if plain else remedy
+
+
+def _stiffer(given: float | ShaftPiece | list[ShaftPiece], key: str, factor: float) -> tuple[Remedy, Any]:
+    """A stiffness so many times as great, to four digits up; of a piece of a shaft by its diameter, to 0.01 mm up."""
+    if isinstance(given, list):
+        found = [_stiffer(piece, f"{key}[{i}]", factor) for i, piece in enumerate(given)]
+        return tuple(change for changes, _ in found for change in changes), [piece for _, piece in found]
+    if isinstance(given, ShaftPiece):
+        wanted = factor * (given.diameter**4 - given.bore**4) + given.bore**4
+        diameter = at_least(wanted**0.25, 0.01)
+        return ((f"{key}.diameter", diameter),), given.model_copy(update={"diameter": diameter})
+    value = float(safely_above(factor * given, 4))
+    return ((key, value),), value
 
 
 @dataclass(frozen=True)

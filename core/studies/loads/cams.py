@@ -11,8 +11,10 @@ import numpy as np
 
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above
+from gearlink.core.base.remedies.ways import at_least, at_most
+from gearlink.core.base.report import NO_NUMBER, Check, Remedy, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed, number_at
 from gearlink.core.base.wording import amount, short
 from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.numerics.arrays import Reals, turn_degrees
@@ -308,6 +310,63 @@ class CamLoadsDesign(LoadsDesign):
             return [0.0 for _ in self.own_rollers]
         pairs = zip(self.own_rollers, self.force_extremes, strict=True)
         return [self.extreme_of(f"traction:{name}").value if low.value > 0.0 else None for name, (low, _) in pairs]
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """Of rollers that skid one as light, or with as little moment, as friction drives, or what presses as hard."""
+        return self._driven() if check == "roller-skid" else super().candidates(check)
+
+    def _driven(self) -> Iterator[Remedy]:
+        roller = self.section.roller
+        if not roller.friction:
+            return
+        pressed = [
+            name for name, (low, _) in zip(self.own_rollers, self.force_extremes, strict=True) if low.value > 0.0
+        ]
+
+        def bearable(name: str, phi: Reals) -> Reals:
+            """Moment with which friction can drive a roller [N m]."""
+            force, radius = self.contact_force(name, phi), self.roller_on_cam(name, phi).radius
+            return np.asarray(roller.friction * force * radius / NEWTON_METER)
+
+        def turning(name: str, phi: Reals) -> Reals:
+            """What is left for its own inertia, over the acceleration."""
+            left = bearable(name, phi) - roller.bearing_moment
+            return np.asarray(np.abs(self.roller_acceleration(name, phi)) / left)
+
+        def resisting(name: str, phi: Reals) -> Reals:
+            return np.asarray(bearable(name, phi) - roller.inertia * np.abs(self.roller_acceleration(name, phi)))
+
+        def least(of: Callable[[str, Reals], Reals]) -> float:
+            return min((self.extreme(partial(of, name), False).value for name in pressed), default=0.0)
+
+        if least(bearable) > roller.bearing_moment:
+            most = 1.0 / max(self.extreme(partial(turning, name), True).value for name in pressed)
+            if most < roller.inertia:
+                yield (("loads.roller.inertia", at_most(most)),)
+        if 0.0 < (most := least(resisting)) < roller.bearing_moment:
+            yield (("loads.roller.bearing_moment", at_most(most)),)
+        yield from self._pressed()
+
+    def _pressed(self) -> Iterator[Remedy]:
+        """What presses the rollers, as much as drives them: their forces are linear in it while all are pressed."""
+        roller, keys = self.section.roller, ("spring.torque", "spring.preload", "spring.least_force")
+        for key in ("loads.roller.preload",) if self.has_pair else keys:
+            old = number_at(self.given, key)
+            if old is None:
+                continue
+            base = max(old, 1.1 * (self.preload_needed or 0.0))
+            step = max(1.0, 0.1 * base)
+            specs = [changed(self.given, ((key, value),)) for value in (base, base + step)]
+            one, other = (self.varied(spec) for spec in specs if spec is not None)
+
+            def lacking(name: str, phi: Reals, one: Any = one, other: Any = other, step: float = step) -> Reals:
+                force, more = one.contact_force(name, phi), other.contact_force(name, phi)
+                need = roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment
+                need = need * NEWTON_METER / (roller.friction * self.roller_on_cam(name, phi).radius)
+                return np.asarray((need - force) * step / (more - force))
+
+            worst = max(self.extreme(partial(lacking, name), True).value for name in self.own_rollers)
+            yield from (((key, at_least(more * max(base + worst, self.preload_needed or 0.0))),) for more in (1.0, 1.2))
 
     def cam_torque(self, phi: Reals) -> Reals:
         """Torque that drives the cams about their axis, counter-clockwise [N m]."""

@@ -13,9 +13,10 @@ from machines import FEED, ROCKER, cam, machine, of
 from pydantic import ValidationError
 from scipy.integrate import solve_ivp
 
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.machine.loads import MachineLoads
-from gearlink.core.machines.machine.shaft import Chain, Swing
+from gearlink.core.machines.machine.shaft import Chain, Swing, stiffened
 from gearlink.core.machines.machine.spec import MainShaft
 
 CHAINS = [
@@ -138,3 +139,44 @@ def test_slow_torques_wind_the_shaft_up_as_a_spring() -> None:
     chain = Chain(np.array([1.0, 1.0, 1.0]), np.array([100.0, 50.0]))
     assert chain.wind_up(np.array([0.0, 0.0, 5.0])) == pytest.approx([0.0, 0.05, 0.15], rel=1e-14)
     assert chain.wind_up(np.array([0.0, 4.0, 0.0])) == pytest.approx([0.0, 0.04, 0.04], rel=1e-14)
+
+
+STIFF = [9000.0, 15000.0]
+PIECES = [
+    {"diameter": 40.0, "length": 300.0},
+    [{"diameter": 50.0, "length": 200.0, "bore": 20.0}, {"diameter": 35.0, "length": 150.0}],
+]
+
+
+@pytest.mark.parametrize("stiffnesses", [STIFF, PIECES, [STIFF[0], PIECES[1]]])
+@pytest.mark.parametrize("mode", [0, 1])
+def test_a_shaft_that_is_stiffened_as_the_fix_says_is_off_its_critical_speeds(
+    stiffnesses: list[Any], mode: int
+) -> None:
+    """The nearest stiffness from which on each natural frequency is a tenth away: a hundredth less is not enough."""
+    shaft = {"inertias": [0.8, 0.05, 0.31], "stiffnesses": stiffnesses}
+    natural = Chain.of(MainShaft.model_validate(shaft)).natural
+    made = machine({"m": of(cam(FEED))}, shaft=shaft, speed=float(natural[mode]) * 30.0 / math.pi * 1.02)
+    warned = [check for check in made.findings("analyze", "critical-speed") if check.status == "warn"]
+    assert len(warned) == 1
+    after = type(made)(changed(made.spec, warned[0].remedy))
+    assert {check.status for check in after.check("critical-speed")} == {"pass"}
+    speeds = np.array(after.critical_speeds) / made.spec.speed - 1.0
+    assert np.abs(speeds).min() == pytest.approx(1.0 / 0.9 - 1.0, abs=2e-3)
+
+
+def test_harmonics_of_the_torque_are_kept_off_all_modes_together() -> None:
+    """The natural frequencies by the matrices of the chain, on a comb of orders that leaves few gaps."""
+    shaft = MainShaft.model_validate({"inertias": [0.8, 0.05, 0.31], "stiffnesses": STIFF})
+    orders = 40.0 * np.array([1.0, 2.0, 3.0, 5.0, 8.0, 11.0, 19.0])
+    found = list(stiffened(shaft, orders))
+    assert len(found) > 1
+    for ((key, values),) in found:
+        assert key == "shaft.stiffnesses"
+        inertia, (one, other) = np.diag([0.8, 0.05, 0.31]), values
+        stiff = np.array([[one, -one, 0.0], [-one, one + other, -other], [0.0, -other, other]])
+        natural = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(inertia, stiff)).real)[1:])
+        off = np.abs(orders[:, None] / natural - 1.0)
+        assert off.min() >= 0.1 - 1e-9
+        assert one / other == pytest.approx(STIFF[0] / STIFF[1], rel=2e-3)
+    assert [values[0] for ((_, values),) in found] == sorted(values[0] for ((_, values),) in found)
