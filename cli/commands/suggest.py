@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.printable import for_shell, json_text
-from gearlink.cli.progress import patience
+from gearlink.cli.progress import progress
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.render.json_report import as_plain
@@ -60,8 +60,8 @@ def run_suggested(command: str, source: str, options: Options) -> int:
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
         spec = read_spec(loaded, kind, source)
-        with patience(f"seeking changes with which {spec.name} holds", quiet=options.quiet):
-            repaired, changes = repair(kind, command, spec, strict=options.strict)
+        with progress(_ROUNDS, f"seeking changes with which {spec.name} holds", quiet=options.quiet) as advance:
+            repaired, changes = repair(kind, command, spec, strict=options.strict, advance=advance)
             design, report = build(loaded, kind, command, repaired, options, key_tables=options.brief)
         if options.save is not None:
             saved = save(loaded, kind, command, design, options, changes or ())
@@ -74,22 +74,27 @@ def run_suggested(command: str, source: str, options: Options) -> int:
     return max(saved, beside, exit_status(report, strict=options.strict))
 
 
-def repair(kind: Kind, command: str, spec: Any, *, strict: bool = False) -> tuple[Any, list[Change] | None]:
+def repair(
+    kind: Kind, command: str, spec: Any, *, strict: bool = False, advance: Callable[[int], None] = lambda _: None
+) -> tuple[Any, list[Change] | None]:
     """The spec with which a design holds, and the changes that lead there.
 
     Parameters
         strict : bool - warnings are repaired as well
+        advance : called with 1 after each round
     Returns
         spec, changes - the spec as it was and None where no such changes were found
     Notes
-        Up to eight rounds, each the first remedy of the design as it then stands.
+        Up to eight rounds, each the first remedy of the design as it then stands. What repairs a finding at the price
+        of others is no way to go twice: the finding came back.
     """
     changes: list[Change] = []
+    taken: set[tuple[str, ...]] = set()
     given, seen = spec, {spec.model_dump_json()}
     for _ in range(_ROUNDS):
         bad = {"fail", "warn"} if strict else {"fail"}
         design = kind.design(command, spec)
-        remedies = _remedies(design, command, bad)
+        remedies = _remedies(design, command, bad, taken)
         if remedies is None:
             return spec, changes
         tried = ((remedy, why, changed(spec, remedy)) for remedy, why in remedies)
@@ -100,10 +105,13 @@ def repair(kind: Kind, command: str, spec: Any, *, strict: bool = False) -> tupl
         changes += [Change(path, given_at(spec, path), value, why) for path, value in remedy]
         seen.add(repaired.model_dump_json())
         spec = repaired
+        advance(1)
     return given, None
 
 
-def _remedies(design: Design, command: str, bad: set[str]) -> Iterator[tuple[Remedy, str]] | None:
+def _remedies(
+    design: Design, command: str, bad: set[str], taken: set[tuple[str, ...]]
+) -> Iterator[tuple[Remedy, str]] | None:
     """What would repair a design, each with the reason, sought when it is asked for; None where the design holds."""
     bench = Bench(design, command, patient=True)
     try:
@@ -113,15 +121,23 @@ def _remedies(design: Design, command: str, bad: set[str]) -> Iterator[tuple[Rem
         why = error.message
         return ((remedy, why) for remedy in bench.of_refusal(error))
     wrong = [(index, check) for index, check in found if check.status in bad]
-    return _steps(bench, wrong) if wrong else None
+    return _steps(bench, wrong, taken) if wrong else None
 
 
-def _steps(bench: Bench, wrong: Sequence[tuple[int, Check]]) -> Iterator[tuple[Remedy, str]]:
-    """Remedies of what is wrong; where there are none, what repairs one finding at the price of others."""
-    for way in (bench.remedy, bench.detour):
-        for index, check in wrong:
-            if remedy := way(check, index):
-                yield remedy, check.message
+def _steps(
+    bench: Bench, wrong: Sequence[tuple[int, Check]], taken: set[tuple[str, ...]]
+) -> Iterator[tuple[Remedy, str]]:
+    """Remedies of what is wrong; where there are none, what repairs one finding at the price of others, by keys that
+    were not `taken` for it before."""
+    for index, check in wrong:
+        if remedy := bench.remedy(check, index):
+            yield remedy, check.message
+    for index, check in wrong:
+        remedy = bench.detour(check, index)
+        way = (check.name, *(key for key, _ in remedy))
+        if remedy and way not in taken:
+            taken.add(way)
+            yield remedy, check.message
 
 
 def _as_plain(changes: Sequence[Change]) -> list[dict[str, Any]]:

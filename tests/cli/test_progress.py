@@ -195,7 +195,7 @@ def test_times_in_words(seconds: float, words: str) -> None:
     [
         (
             "analyze failing.yaml --suggest --save - --quantity frame_length",
-            ["seeking changes with which failing holds", "computing what is saved"],
+            ["seeking changes with which failing holds 8", "computing what is saved"],
         ),
         ("animate crank.yaml --format html --out out --seconds 1", ["drawing crank.yaml"]),
         ("animate crank.yaml --out out --seconds 1 --size 160x160", ["drawing crank.yaml", "drawing 25"]),

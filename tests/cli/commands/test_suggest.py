@@ -7,6 +7,7 @@ import shlex
 from pathlib import Path
 from typing import Any
 
+import factory
 import pytest
 from sweeps import mostly_slow
 
@@ -15,7 +16,10 @@ from gearlink.cli.commands.suggest import Change, overrides
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import COMMANDS
 from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.remedies.trials import Bench
+from gearlink.core.base.report import Check, Remedy
 from gearlink.core.base.spec_paths import value_at
+from gearlink.core.studies.codes import CONTACT_LOSS
 
 LOOP = """kind: wide-swing-cam
 layout: twin-rocker
@@ -36,10 +40,10 @@ _repair, _repaired = suggest.repair, {}
 def searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same design is repaired once: the tests differ in what they do with what was found."""
 
-    def repair(kind: Any, command: str, spec: Any, *, strict: bool) -> Any:
+    def repair(kind: Any, command: str, spec: Any, *, strict: bool, advance: Any) -> Any:
         key = command, spec.model_dump_json(), strict
         if key not in _repaired:
-            _repaired[key] = _repair(kind, command, spec, strict=strict)
+            _repaired[key] = _repair(kind, command, spec, strict=strict, advance=advance)
         return _repaired[key]
 
     monkeypatch.setattr(suggest, "repair", repair)
@@ -372,3 +376,38 @@ def test_a_section_that_the_file_leaves_out_is_suggested(gearlink: Any, tmp_path
     ended = gearlink("loads", file, "--suggest")
     assert ended.status == 0
     assert "spring.preload: not given -> " in ended.out
+
+
+class Slower:
+    """A bench that repairs a finding by less and less speed, at the price of others, and finds no remedy."""
+
+    def __init__(self, speeds: list[float]) -> None:
+        self.speeds = speeds
+
+    def remedy(self, _check: Check, _index: int) -> Remedy:
+        return ()
+
+    def detour(self, _check: Check, _index: int) -> Remedy:
+        return (("speed", self.speeds.pop(0)),)
+
+
+def test_what_came_back_is_not_repaired_the_same_way_again() -> None:
+    """Eight rounds of ever less speed took a minute of a press with friction, and ended with nothing found."""
+    check, taken, bench = CONTACT_LOSS.check("fail", "speed", 1.0, 2.0, fix="less"), set(), Slower([9.0, 8.0, 7.0])
+    found = [list(suggest._steps(bench, [(0, check)], taken)) for _ in range(3)]
+    assert found == [[((("speed", 9.0),), check.message)], [], []]
+
+
+@pytest.mark.slow
+def test_a_press_whose_limits_cannot_be_met_is_given_up_soon(monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[Bench] = []
+
+    def bench(*given: Any, **keys: Any) -> Bench:
+        made.append(Bench(*given, **keys))
+        return made[-1]
+
+    monkeypatch.setattr(suggest, "Bench", bench)
+    design = factory.design("loaded_press", command="loads", limits={"transmission_angle": 60})
+    assert _repair(KINDS["flatbed-press"], "loads", design.spec, strict=True) == (design.spec, None)
+    assert len(made) <= 3
+    assert sum(len(each._trials) for each in made) <= 15
