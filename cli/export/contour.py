@@ -173,6 +173,21 @@ class Contour:
     turns: Points
     error: float
 
+    def has_bore(self, circle: Circle) -> bool:
+        """Whether a circle is a shaft that goes through the part, and not beside it or through its edge."""
+        if circle.layer != "SHAFT":
+            return False
+        edge = np.concatenate([line.nodes for line in self.lines if line.layer == "PROFILE"])
+        round_ = not self.part.closed or abs(np.angle(edge[1:] / edge[:-1]).sum()) > math.pi
+        return bool(np.abs(edge).min() > circle.radius and round_)
+
+    @property
+    def holes(self) -> tuple[Circle, ...]:
+        """Holes through the part: its bore, and those beside it."""
+        return tuple(
+            each for each in self.part.circles if each.layer in ("BORE", "OUTPUT_HOLES") or self.has_bore(each)
+        )
+
     @cached_property
     def lines(self) -> tuple[Line, ...]:
         """The curves, layer by layer."""

@@ -69,8 +69,9 @@ def press(design: Any) -> Makers:
     """Both cams and the gears of the input, as far as the file has their sections."""
     found: Makers = {}
     if design.spec.cam is not None:
-        found["main_cam"] = lambda: disc_cam("main_cam", design.main_cam)
-        found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
+        shaft = design.spec.cam.shaft_radius
+        found["main_cam"] = lambda: _on_shaft(disc_cam("main_cam", design.main_cam), shaft)
+        found["return_cam"] = lambda: _on_shaft(disc_cam("return_cam", design.return_cam), shaft)
     if design.spec.input_gears is not None:
         found |= gear_pair(design, "input_gears")
     if design.spec.cylinder.gears is not None:
@@ -89,9 +90,10 @@ def gripper(design: Any) -> Makers:
     """The cams, and that of the fingers."""
     found: Makers = {}
     if design.spec.cam is not None:
-        found["main_cam"] = lambda: disc_cam("main_cam", design.main_cam)
+        shaft = design.spec.cam.shaft_radius
+        found["main_cam"] = lambda: _on_shaft(disc_cam("main_cam", design.main_cam), shaft)
         if design.spec.cam.return_roller is not None:
-            found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
+            found["return_cam"] = lambda: _on_shaft(disc_cam("return_cam", design.return_cam), shaft)
     if design.spec.fingers is not None:
         found["finger_cam"] = lambda: disc_cam("finger_cam", design.fingers.cam)
     return found or _lacking("the file has no section cam: center, sense, roller")
@@ -99,26 +101,31 @@ def gripper(design: Any) -> Makers:
 
 def follower_cam(design: Any) -> Makers:
     """The cam of a follower, or both walls of its groove; return cam and cutter path where the file has them."""
-    cams, cutter = design.cams, design.spec.cam.cutter_radius
+    cams, cutter, shaft = design.cams, design.spec.cam.cutter_radius, design.spec.cam.shaft_radius
     if design.spec.is_flat:
-        flat: Makers = {"main_cam": lambda: flat_cam("main_cam", cams.flat)}
+        flat: Makers = {"main_cam": lambda: _on_shaft(flat_cam("main_cam", cams.flat), shaft)}
         if cutter is not None:
             words = f"path of a cutter of radius {cutter:.9g} mm"
             flat["cutter"] = lambda: replace(flat_cam("cutter", cams.flat.outside(cutter), words), body=False)
         return flat
-    found: Makers = {"main_cam": lambda: disc_cam("main_cam", cams.main)}
+    found: Makers = {"main_cam": lambda: _on_shaft(disc_cam("main_cam", cams.main), shaft)}
     if design.spec.closure == "groove":
         found = {
-            "groove_inner": lambda: disc_cam("groove_inner", replace(cams.main, name="inner wall")),
+            "groove_inner": lambda: _on_shaft(disc_cam("groove_inner", replace(cams.main, name="inner wall")), shaft),
             "groove_outer": lambda: disc_cam("groove_outer", cams.outer_wall),
         }
     if cams.back is not None:
-        found["return_cam"] = lambda: disc_cam("return_cam", cams.back)
+        found["return_cam"] = lambda: _on_shaft(disc_cam("return_cam", cams.back), shaft)
     if cutter is not None:
         path = replace(cams.main, name="cutter path", roller_radius=cams.main.roller_radius - cutter)
         words = f"path of a cutter of radius {cutter:.9g} mm; {_touching(cams.main)}"
         found["cutter"] = lambda: replace(disc_cam("cutter", path, words), body=False)
     return found
+
+
+def _on_shaft(part: Part, radius: float) -> Part:
+    """The part with its shaft, where the file names one."""
+    return replace(part, circles=(*part.circles, Circle("SHAFT", radius))) if radius > 0.0 else part
 
 
 def cycloidal(design: Any) -> Makers:
@@ -438,14 +445,21 @@ def of_mesh(
         with at_key(key):
             widths = data().face_width
             width = widths[number] if widths else None
+            bore = _bore(data(), number)
             if number == 1 and mesh.internal:
-                outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(gears, "rim", rim))
+                outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(gears, "rim", rim) or bore)
                 made = ring_of(mesh, outer, names[1], titles[1], width, hands[1])
             else:
                 made = gear_of(mesh, number, names[number], titles[number], width, hands[number])
+                made = made if bore is None else replace(made, circles=(*made.circles, Circle("BORE", bore)))
             return replace(made, lines=partial(_lines, data, number, _told(mesh, hands)))
 
     return {name: partial(gear, number) for number, name in enumerate(names)}
+
+
+def _bore(data: GearData, number: int) -> float | None:
+    """Radius of the bore that the rating names, of a ring that of its outside [mm]; None where it names none."""
+    return None if data.conditions is None else 0.5 * data.conditions.bores[number] or None
 
 
 SENSES = {"right": 1.0, "left": -1.0}
@@ -1126,7 +1140,8 @@ def planar(design: Any) -> Makers:
 
 
 def _planar_cam(name: str, cam: Any) -> Part:
-    return flat_cam(name, cam.profile) if cam.given.face is not None else disc_cam(name, cam.profile)
+    made = flat_cam(name, cam.profile) if cam.given.face is not None else disc_cam(name, cam.profile)
+    return _on_shaft(made, cam.shaft)
 
 
 def _path(design: Any, name: str) -> Part:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import pairwise
@@ -12,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour, describe
+from gearlink.cli.export.contour import Circle, Contour, describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points, Reals
 from gearlink.cli.files import unfinished
@@ -53,9 +54,9 @@ def as_step(contour: Contour, spec: Any, width: float | None = None) -> bytes:
     occ = _Occ()
     if turned is None:
         edges = [edge for control, knots in _profile(contour) for edge in occ.edges(control, knots)]
-        solid = occ.prism(occ.face(edges, part.rim), across, part.slant)
+        solid = occ.prism(occ.face(edges, part.rim, contour.holes), across, part.slant)
     else:
-        solid = occ.helicoid(_profile(contour), turned, part.rim, across)
+        solid = occ.helicoid(_profile(contour), turned, part.rim, across, contour.holes)
     words = describe(contour, spec)
     return occ.written(solid, f"{spec.name} {contour.part.name}", f"{words['design_sha256']}")
 
@@ -146,8 +147,10 @@ class _Occ:
         make = self.BRepBuilderAPI.BRepBuilderAPI_MakeFace
         return [make(surface, low, high, 0.0, 1.0, _SEWN).Face() for low, high in _few_spans(along)]
 
-    def helicoid(self, profile: list[tuple[Points, Any]], turned: Turning, rim: float, width: float) -> Any:
-        """The solid whose section turns along the axis, within its rim where it has one.
+    def helicoid(
+        self, profile: list[tuple[Points, Any]], turned: Turning, rim: float, width: float, holes: Sequence[Circle]
+    ) -> Any:
+        """The solid whose section turns along the axis, within its rim where it has one; holes are straight.
 
         Raises
             NoStep - where its faces leave a gap
@@ -157,10 +160,11 @@ class _Occ:
             for flank in self._flanks(control, knots, turned, width):
                 sewing.Add(flank)
         for turn, height in ((1.0, 0.0), (complex(turned.control[-1]), width)):
-            sewing.Add(self.face([e for c, k in profile for e in self.edges(turn * c, k, height)], rim, height))
-        if rim:
-            axes = self.gp.gp_Ax3(self.gp.gp_Pnt(0.0, 0.0, 0.0), self.gp.gp_Dir(0.0, 0.0, 1.0))
-            cylinder = self.gp.gp_Cylinder(axes, rim)
+            edges = [e for c, k in profile for e in self.edges(turn * c, k, height)]
+            sewing.Add(self.face(edges, rim, holes, height))
+        for each in (*holes, *((Circle("RIM", rim),) if rim else ())):
+            axes = self.gp.gp_Ax3(self._place(each), self.gp.gp_Dir(0.0, 0.0, 1.0))
+            cylinder = self.gp.gp_Cylinder(axes, each.radius)
             sewing.Add(self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(cylinder, 0.0, 2.0 * math.pi, 0.0, width).Face())
         sewing.Perform()
         if sewing.NbFreeEdges():
@@ -185,20 +189,25 @@ class _Occ:
         make = old or getattr(import_module("OCP.collections"), f"Array{rank}_{of}")
         return make(*(end for length in lengths for end in (1, length)))
 
-    def face(self, edges: list[Any], rim: float, height: float = 0.0) -> Any:
-        """The plane between the profile and its rim, or within the profile."""
+    def _place(self, circle: Circle, height: float = 0.0) -> Any:
+        return self.gp.gp_Pnt(circle.center.real, circle.center.imag, height)
+
+    def _round(self, circle: Circle, height: float, sense: float) -> Any:
+        """A circle, counter-clockwise with the sense +1."""
+        axes = self.gp.gp_Ax2(self._place(circle, height), self.gp.gp_Dir(0.0, 0.0, sense))
+        edge = self.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(self.gp.gp_Circ(axes, circle.radius)).Edge()
+        return self.BRepBuilderAPI.BRepBuilderAPI_MakeWire(edge).Wire()
+
+    def face(self, edges: list[Any], rim: float, holes: Sequence[Circle], height: float = 0.0) -> Any:
+        """The plane between the profile and its rim, or within the profile, without its holes."""
         wire = self.BRepBuilderAPI.BRepBuilderAPI_MakeWire()
         for edge in edges:
             wire.Add(edge)
-        profile = wire.Wire()
-        if rim:
-            axes = self.gp.gp_Ax2(self.gp.gp_Pnt(0.0, 0.0, height), self.gp.gp_Dir(0.0, 0.0, 1.0))
-            circle = self.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(self.gp.gp_Circ(axes, rim)).Edge()
-            outer = self.BRepBuilderAPI.BRepBuilderAPI_MakeWire(circle).Wire()
-            made = self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(outer, True)
-            made.Add(profile)
-            return made.Face()
-        return self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(profile, True).Face()
+        outer, *inner = [wire.Wire()] if not rim else [self._round(Circle("RIM", rim), height, 1.0), wire.Wire()]
+        made = self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(outer, True)
+        for each in (*inner, *(self._round(hole, height, -1.0) for hole in holes)):
+            made.Add(each)
+        return made.Face()
 
     def prism(self, face: Any, width: float, slant: float) -> Any:
         """The solid over a face, straight along the axis or at a slant to it."""

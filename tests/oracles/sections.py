@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.interpolate import BSpline
@@ -10,9 +11,11 @@ from scipy.interpolate import BSpline
 from gearlink.cli.export.contour import Contour
 
 
-def section_area(contour: Contour) -> float:
+def section_area(contour: Contour, holes: Sequence[float] = ()) -> float:
     """Area between profile and rim [mm^2]: the integral of Im(conj(z) dz)/2 over its cubics, exact by Gauss.
 
+    Parameters
+        holes : radii of the holes through it [mm]
     Notes
         The integrand is of degree 5 on each cubic, which three points integrate exactly.
     """
@@ -27,4 +30,5 @@ def section_area(contour: Contour) -> float:
         (x, y), (dx, dy) = (np.moveaxis(spline(at.ravel(), order), -1, 0) for order in (0, 1))
         total += float(((x * dy - y * dx).reshape(at.shape) * half[:, None] * weights).sum())
     area = abs(0.5 * total * contour.turns.size)
-    return math.pi * contour.part.rim**2 - area if contour.part.rim else area
+    area = math.pi * contour.part.rim**2 - area if contour.part.rim else area
+    return area - math.pi * math.fsum(radius**2 for radius in holes)

@@ -7,6 +7,7 @@ import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from datetime import UTC, datetime
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -250,7 +251,8 @@ def test_a_solid_that_is_read_again_has_the_volume_of_its_section(given: Any, na
     made = design(worked(given) if isinstance(given, str) else given)
     section = _spline(name, made)
     shape = _read_again(section, made.spec, 12.5, tmp_path)
-    assert _volume(shape) == pytest.approx(12.5 * section_area(section), rel=1e-6)
+    holes = [made.spec.cam.shaft_radius] if name == "main_cam" and made.spec.cam.shaft_radius else []
+    assert _volume(shape) == pytest.approx(12.5 * section_area(section, holes), rel=1e-6)
 
 
 NO_STEP = "STEP needs the extra `step` (cadquery-ocp), which is not installed"
@@ -334,6 +336,61 @@ def test_a_helical_solid_is_its_section_turned_along_the_axis(hand: str, name: s
     from_space = np.abs(np.angle(points[flank]) - pitch * np.round(np.angle(points[flank]) / pitch))
     off = from_space - (half if number else 0.5 * pitch - half)
     assert np.abs(off * radius[flank]).max() < section.error + 1e-5
+
+
+RATED = {
+    "load": {"torque": 100, "speed": 500},
+    "face_width": 20,
+    "rating": {"life": 1000, "material": "16MnCr5", "grade": 6, "lubricant": {"vg": 220}, "bore": [20.0, 30.0]},
+}
+BORED: list[tuple[Any, str, list[float]]] = [
+    ("lift_cam", "main_cam", [20.0]),
+    ("swing_gripper", "return_cam", [40.0]),
+    ("arc_cam", "main_cam", [10.0]),
+    ("planar_cam", "cam", [15.0]),
+    (PAIR | {"module": 5} | RATED, "gear1", [10.0]),
+    (PAIR | {"module": 5, "helix_angle": 15} | RATED, "gear2", [15.0]),
+    (PAIR | {"teeth": [20, -60]} | RATED | {"rating": RATED["rating"] | {"bore": [25.0, 300.0]}}, "gear2", []),
+    ("geneva_drive", "driver", []),
+    ("cycloidal_reducer", "disc", []),
+]
+
+
+@pytest.mark.parametrize(("given", "name", "radii"), BORED)
+def test_a_part_has_the_holes_that_its_file_names(given: Any, name: str, radii: list[float], tmp_path: Path) -> None:
+    """Cylinders through the width and what they take of the volume; of a ring the outside. The shaft of the Geneva
+    crank cuts into the cut-out of the disc, and does not go through it."""
+    made = design(worked(given) if isinstance(given, str) else given)
+    section = _spline(name, made)
+    if name == "disc":
+        radii = [made.spec.bearing_radius, *[made.output_hole_radius] * made.spec.output_pins.count]
+    assert [each.radius for each in section.holes] == pytest.approx(radii, rel=1e-12)
+    if name == "gear2" and not radii:
+        assert section.part.rim == 150.0
+    if find_spec("OCP") is not None:
+        shape = _read_again(section, made.spec, 12.5, tmp_path)
+        whole = _read_again(replace(section, part=replace(section.part, circles=())), made.spec, 12.5, tmp_path)
+        bored = 12.5 * math.pi * math.fsum(radius**2 for radius in radii)
+        assert _volume(whole) - _volume(shape) == pytest.approx(bored, abs=1e-6 * _volume(whole))
+        outside = [section.part.rim] if section.part.rim else []
+        assert _cylinders(shape) == pytest.approx(sorted([*radii, *outside]), rel=1e-9)
+
+
+def _cylinders(shape: Any) -> list[float]:
+    """Radii of the cylindrical faces; lines of a profile that are arcs are splines."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.GeomAbs import GeomAbs_SurfaceType
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    faces, found = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE), []
+    while faces.More():
+        surface = BRepAdaptor_Surface((getattr(TopoDS, "Face_s", None) or TopoDS.Face)(faces.Current()))
+        faces.Next()
+        if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Cylinder:
+            found.append(float(surface.Cylinder().Radius()))
+    return sorted(found)
 
 
 def test_a_helical_rack_is_a_slanted_prism(tmp_path: Path) -> None:

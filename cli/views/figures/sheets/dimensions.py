@@ -210,19 +210,10 @@ def _in_row(view: View, each: Dimension) -> tuple[paper.Box, paper.Box]:
     return _box(middle, complex(long, 3.2)), _box(0.5 * (ends[0] + ends[1]), line)
 
 
-def is_bore(circle: Circle, shape: Contour) -> bool:
-    """Whether a shaft goes through the part, and not beside it or through its edge."""
-    if circle.layer != "SHAFT":
-        return False
-    edge = np.concatenate([line.nodes for line in shape.lines if line.layer == "PROFILE"])
-    round_ = not shape.part.closed or abs(np.angle(edge[1:] / edge[:-1]).sum()) > math.pi
-    return bool(np.abs(edge).min() > circle.radius and round_)
-
-
 def _words(view: View, group: Sequence[Circle]) -> str:
     """The diameter of circles that are alike, and that of the circle on which several lie."""
     circle, across = group[0], 2.0 * group[0].radius
-    if circle.layer == "SHAFT" and not is_bore(circle, view.shape):
+    if circle.layer == "SHAFT" and not view.shape.has_bore(circle):
         return f"⌀{size(across)} shaft"
     if circle.layer == "SHAFT":
         return cam_sheets.bore_words(across)

@@ -194,7 +194,7 @@ def _outline(view: dimensions.View) -> None:
     for circle in _circles(part):
         outline = circle.center + circle.radius * np.exp(1j * np.linspace(0.0, _TURN, 361))
         look = dict(_CIRCLES.get(circle.layer, {"width": 0.35}))
-        if dimensions.is_bore(circle, view.shape):
+        if view.shape.has_bore(circle):
             outline, look = cam_sheets.bore(circle.radius, view.keyway), {"width": 0.5, "gid": "bore"}
         paper.line(axes, view.axis + view.scale * outline, look.pop("width"), **look)
     if _is_rack(part):
