@@ -403,7 +403,9 @@ GEAR_PAIR = {
     "chordal_height": Term("h_c", "mm", "height of the chord of the tooth thickness below the tip", "DIN 21773"),
     "generating_shift": Term("x_E", "1", "generating shift of each gear, minimum and maximum", "DIN 3960"),
     "span_measurement_limits": Term("W_k min, max", "mm", "span measurement of each gear, minimum and maximum"),
-    "measure_limits": Term("M_dK min, max", "mm", "measure over balls of each gear, minimum and maximum"),
+    "measure_limits": Term(
+        "M_dK min, max", "mm", "measure over balls of each gear, of a ring between them, minimum and maximum"
+    ),
     "backlash_circumferential": Term("j_wt", "mm", "backlash on the working circles, minimum and maximum", "DIN 3967"),
     "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, minimum and maximum", "DIN 3967"),
     "backlash_angle": Term("j_phi", "deg", "free turn of each gear, minimum and maximum"),

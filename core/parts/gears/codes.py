@@ -157,7 +157,7 @@ INSPECTION = Rule(
     "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it. Or the planes of the "
     "span measurement touch a helical gear beyond its face.",
     "The measure is then not that of the drawing, and a good gear is rejected or a bad one passed.",
-    "Take the preferred size that the finding names, or omit pin_diameter; span fewer teeth, or measure over balls.",
+    "Take the preferred size that the finding names, or omit pin_diameter; span fewer teeth, or use balls.",
     "form circle <= d_M <= tip circle, root circle clear, M beyond the tip circle; tan(alpha_M) = tan(alpha_K) - "
     "D cos(beta_b)/d_b; b >= W_k sin(beta_b) + 1.2 mm cos(beta_b)",
     "DIN 21773",

@@ -191,9 +191,22 @@ def _thickness(data: GearData) -> Iterator[Row]:
     yield "teeth (ring: spaces) spanned", "k", *pair.span_teeth, ""
     yield from _limits("span measurement", "W_k", pair.span_measurement, data.span_measurement_limits)
     yield "ball diameter", "D_M", *data.pin_diameter, "mm"
-    yield from _limits("measure over balls", "M_dK", data.measure_over_balls, data.measure_limits)
+    yield from _over_balls(data)
     yield "chordal thickness, nominal", "s_c", *data.chordal_thickness, "mm"
     yield "chordal height", "h_c", *data.chordal_height, "mm"
+
+
+def _over_balls(data: GearData) -> Iterator[Row]:
+    """The measure over balls, of a ring between them, each in lines of its own."""
+    for words, of_ring in (("measure over balls", False), ("measure between balls", True)):
+        mine = [(teeth < 0) is of_ring for teeth in data.pair.teeth]
+        if any(mine):
+            values = (data.measure_over_balls, data.measure_limits)
+            nominal, limits = (
+                None if each is None else tuple(value if own else None for value, own in zip(each, mine, strict=True))
+                for each in values
+            )
+            yield from _limits(words, "M_dK", nominal, limits)
 
 
 def _mesh(data: GearData) -> Iterator[Row]:

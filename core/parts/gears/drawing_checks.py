@@ -469,7 +469,8 @@ def _spanned(data: GearData, gear: int) -> Iterator[Check]:
     form, tip = pair.form_radius[gear] or pair.base_radius[gear], pair.tip_radius[gear]
     lesser = [k for k in range(1, count) if form < pair.span_contact(gear, k) < tip]
     fewer = [k for k in lesser if width_of_span(pair, gear, k) <= width]
-    fix = f"measure over {amount(fewer[-1], 'tooth', 'teeth')}" if fewer else "measure over balls"
+    balls = f"measure {'between' if pair.teeth[gear] < 0 else 'over'} balls"
+    fix = f"measure over {amount(fewer[-1], 'tooth', 'teeth')}" if fewer else balls
     what = f"face width of {data.called(gear)} for the span over {amount(count, 'tooth', 'teeth')}"
     yield INSPECTION.check("warn", what, width, needed, "mm", fix=fix)
 

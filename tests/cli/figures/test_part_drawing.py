@@ -108,9 +108,11 @@ def test_a_gear_has_its_outline_and_its_table(
     assert told <= set(words(figure))
     count, ball = int(cell(figure, "teeth (ring: spaces) spanned")), float(cell(figure, "ball diameter"))
     limits = zip(("maximum", "minimum"), thinner, strict=True) if thinner else [("nominal", 0.0)]
+    way, other = ("between", "over") if name == "ring_pair" else ("over", "between")
+    assert not any(f"{other} balls" in text for text in words(figure))
     for limit, allowance in limits:
         assert cell(figure, f"span measurement, {limit}") == f"{cut.span(count, allowance):.6g}"
-        assert cell(figure, f"measure over balls, {limit}") == f"{cut.over_balls(ball, allowance):.6g}"
+        assert cell(figure, f"measure {way} balls, {limit}") == f"{cut.over_balls(ball, allowance):.6g}"
 
 
 def test_lengths_of_a_large_gear_are_told_to_a_micrometre() -> None:

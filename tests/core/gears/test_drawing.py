@@ -112,3 +112,21 @@ def test_a_grade_alone_has_its_tolerances(given: dict[str, Any], lines: bool | N
         slope, form = 0.05 * math.sqrt(60) + 0.35 * 5 + 4, 0.07 * math.sqrt(60) + 0.45 * 5 + 4
         assert found["total helix deviation"][0] == round(math.sqrt(2) * math.hypot(slope, form))
         assert found["runout"][0] == round(0.9 * math.sqrt(2) * (0.12 + 0.55 * math.sqrt(60) + 2.1 + 12))
+
+
+def test_a_ring_is_measured_between_balls() -> None:
+    """In lines of its own, whatever the order of the gears; of external gears there are none."""
+    known = {"kind": "gear-pair", "module": 2, "profile_shift": [0.2, 0.0], "pin_diameter": [3.5, 3.5]}
+    for limits in ({}, {"allowances": {"upper": [-0.05, -0.06], "lower": [-0.08, -0.1]}}):
+        made = design(known | limits | {"teeth": [20, -60]}, command="gear")
+        items, _, first, second, _ = made.table("drawing").data
+        rows = {item: (one, two) for item, one, two in zip(items, first, second, strict=True) if "balls" in item}
+        measured = made.raw("measure_limits") if limits else made.raw("measure_over_balls")
+        for way, place in (("over", 0), ("between", 1)):
+            found = [row for item, row in rows.items() if f"{way} balls" in item]
+            assert found
+            assert all(row[1 - place] is None for row in found)
+            values = measured[place][::-1] if limits else [measured[place]]
+            assert [row[place] for row in found] == pytest.approx(values, rel=1e-12)
+        plain = design(known | limits | {"teeth": [20, 60]}, command="gear").table("drawing").data[0]
+        assert not any("between balls" in item for item in plain)

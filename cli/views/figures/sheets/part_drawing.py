@@ -295,7 +295,8 @@ def _notes(design: Any, part: Part, rows: Rows) -> list[str]:
         return [_begun(note) for note in (*part.notes, *_of_table(part, rows), true_size.limits_of(design))]
     assert part.lines is not None, "gears have a table"
     limits = any("maximum" in item for item, *_ in part.lines())
-    measured = "Span and measure over balls within the limits of the table." if limits else (
+    way = "between" if part.rim else "over"
+    measured = f"Span and measure {way} balls within the limits of the table." if limits else (
         "The file has no allowances: span and measures are nominal, without backlash.")  # fmt: skip
     return [
         measured,
