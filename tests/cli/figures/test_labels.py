@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import itertools
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 import pytest
-from factory import DESIGNS, each_kind, worked
+from factory import DESIGNS, changed, design, each_kind, worked
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sheets import fits_a_page, meetings, placed_sheet
 from sweeps import mostly_slow
@@ -16,6 +17,7 @@ from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.evaluate import whole_design
 from gearlink.cli.views.figures.drawing import labels, panels, style
 from gearlink.cli.views.figures.drawing.placing import settled
+from gearlink.cli.views.figures.write import panels as draw_panels
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 
@@ -73,13 +75,12 @@ def test_words_keep_clear_at_odd_proportions(name: str, command: str, keys: dict
 
 @pytest.mark.slow
 def test_fifty_of_the_odd_ones_can_be_built() -> None:
+    """Those that cannot are skipped above. What a sheet shows is computed before its panels are placed."""
     built = 0
     for name, command, keys in ODD:
-        try:
-            placed_sheet(name, command, **keys)
-        except NoSolution:
-            continue
-        built += 1
+        with suppress(NoSolution):
+            draw_panels(command, design(changed(worked(name), **keys), command=command))
+            built += 1
     assert built >= 50
 
 
