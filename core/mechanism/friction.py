@@ -367,9 +367,8 @@ def settled(
         if pulled is None:
             return found, sizes
         found = solution_of(mechanism, masses, applied, gravity, speed, friction, pulled)
-    return found, _sizes(
-        found, friction
-    )  # rows at which either roller would have it the other way: both are idle there
+    sizes = _sizes(found, friction)  # of rows at which either roller would have it the other way: both are idle there
+    return found, sizes
 
 
 def _sizes(found: Solution, friction: Coefficients | None) -> Reals:
