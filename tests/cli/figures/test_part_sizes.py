@@ -268,6 +268,15 @@ def test_a_planar_cam_has_the_bore_of_its_shaft() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("bore", "note"), [([30.0, 60.0], "Hub and tolerances"), (None, "Bore, hub and tolerances")])
+def test_a_gear_has_the_bore_of_its_rating(bore: list[float] | None, note: str) -> None:
+    """The note said that the file has no bore beside the one that was drawn."""
+    shown = words(sheets_of(whole("rated_pair", rating__bore=bore))["drawing-gear2"]())
+    assert ("⌀60" in shown) == (bore is not None)
+    assert any(text.startswith(note) for text in shown)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["wide_swing_cycle", "wide_swing_twin_cam"])
 def test_extreme_radii_are_those_of_the_curve_and_not_of_its_chords(name: str) -> None:
     """At 1:2 the nodes of the outline may miss an extreme by 0.02 mm."""

@@ -296,12 +296,13 @@ def _notes(design: Any, part: Part, rows: Rows) -> list[str]:
     assert part.lines is not None, "gears have a table"
     limits = any("maximum" in item for item, *_ in part.lines())
     way = "between" if part.rim else "over"
+    lacking = "Hub" if any(circle.layer == "BORE" for circle in part.circles) else "Bore, hub"
     measured = f"Span and measure {way} balls within the limits of the table." if limits else (
         "The file has no allowances: span and measures are nominal, without backlash.")  # fmt: skip
     return [
         measured,
         *(_begun(note) for note in part.notes if not note.startswith(_IN_TABLE)),
-        "Bore, hub and tolerances of the blank are not in the file. Lines of the table: DIN 3966.",
+        f"{lacking} and tolerances of the blank are not in the file. Lines of the table: DIN 3966.",
     ]
 
 
