@@ -159,6 +159,21 @@ def named_terms(name: str) -> list[Concept]:
     return sorted(found, key=lambda term: folded(term.name) != asked)
 
 
+def translated(word: str, kind: str) -> tuple[str, tuple[str, ...]] | None:
+    """The term that a German or Chinese word stands for, and its keys in files of a kind; None where it has none.
+
+    Example
+        >>> translated("Zähnezahl", "gear-pair"), translated("机架", "crank-rocker")
+        (('number of teeth', ('teeth',)), ('frame', ('links.frame',)))
+    """
+    from gearlink.cli.texts.schema import known_keys
+
+    terms = [t for t in named_terms(word) if folded(word) in map(folded, (*t.german, *t.chinese)) and t.keys]
+    known = {key.path for key, kinds in known_keys() if kind in kinds} if terms else set()
+    found = ((term.name, tuple(key for key in term.keys if key in known)) for term in terms)
+    return next((each for each in found if each[1]), None)
+
+
 def kinds_named(name: str, kinds: Collection[str]) -> list[str]:
     """Of some kinds of designs those of the terms that a name stands for.
 
@@ -277,7 +292,8 @@ def _nearest(meaning: Meaning, section: tuple[str | int, ...], data: dict[str, A
 def _line(key: str, value: Any, known: bool) -> tuple[str, str]:
     """Section and `key: value` of a key."""
     section, _, last = key.rpartition(".")
-    text = json.dumps(value, ensure_ascii=False) if known and value is not None else "..."
+    told = known and value is not None and not (isinstance(value, str) and re.match(r"[-+.]?\d", value))
+    text = json.dumps(value, ensure_ascii=False) if told else "..."
     return section, f"`{last}: {text if len(text) <= _LONGEST_VALUE else '...'}`"
 
 

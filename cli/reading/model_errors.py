@@ -73,6 +73,7 @@ _BOUNDS = {
     "multiple_of": ("multiple_of", "a multiple of {}"),
 }
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_SEXAGESIMAL = re.compile(r"(\d+)\s*°\s*(\d+(?:\.\d+)?)\s*['′](?:\s*(\d+(?:\.\d+)?)\s*(?:\"|''|″))?", re.ASCII)
 _WITH_UNIT = re.compile(rf"({_NUMBER})\s*((?:1?/)?[a-zA-Zµ°%'\"][\w/^°%² -]*)", re.ASCII)
 DASHES = ("\u2212", "\u2013", "\u2014")
 _LOOKALIKES = str.maketrans("OolI", "0011")
@@ -148,7 +149,7 @@ def number_remedy(text: str, unit: str = "") -> str:
     if re.fullmatch(r"[-+]?[0-9]{1,3}([_ '][0-9]{3})+(\.[0-9]+)?", text):
         return f"write {re.sub('[_ ]', '', text.replace(chr(39), ''))}"
     if odd := ODD.search(text):
-        plain = normalize("NFKC", text).replace("\u2212", "-").strip()
+        plain = ODD.sub("", normalize("NFKC", text).replace("\u2212", "-")).strip()
         if re.fullmatch(_NUMBER, plain):
             return f"it holds {odd_character(odd[0])}: write {plain}"
         return f"it holds {odd_character(odd[0])}: {odd_remedy(odd[0])}"
@@ -156,6 +157,11 @@ def number_remedy(text: str, unit: str = "") -> str:
         return f"it holds {odd_character(text[0])}: write -"
     if re.fullmatch(rf"{_NUMBER}(\s+{_NUMBER})+", text):
         return f"commas part the elements of a list: {', '.join(text.split())}"
+    if re.fullmatch(rf"{_NUMBER}[,;]", text):
+        return f"write {text[:-1]}"
+    if unit == "deg" and (parts := _SEXAGESIMAL.fullmatch(text)):
+        degrees, minutes, seconds = (float(part or 0) for part in parts.groups())
+        return f"write {degrees + minutes / 60 + seconds / 3600:.10g}"
     digits = text.translate(_LOOKALIKES)
     if re.fullmatch(_NUMBER, digits):
         return f"a letter instead of a digit: write {digits}"
@@ -204,9 +210,9 @@ def truth_remedy(text: str) -> str:
 
 _MOST_ERRORS = 500
 _MOST_READINGS = 64
-_SLIP = 0.8  # likeness of a misspelled key, before a key of that very name in a section is offered
+_SLIP = 0.85  # likeness of a misspelled key, before a key of that very name in a section is offered
 _LISTED_KEYS = 24
-_NAMED_KINDS = 3
+_NAMED = 3
 _ASIDE = {"loads", "tolerance", "register", "rating"}
 _LONGEST_WORD = 40
 
@@ -417,6 +423,8 @@ class _Wording:
             from gearlink.cli.glossary import hint
 
             return hint(meaning, key, value, parent, self.loaded.data)
+        if translation := self._translation(key, allowed):
+            return translation
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain, by_letters = _spelled(key), {name.lower(): name for name in allowed}  # A_radius beside W_radius
@@ -469,7 +477,7 @@ class _Wording:
         if not having or kind in having or self._deeper(key):
             return ""
         nearest = sorted(having.items(), key=lambda item: item[1].rpartition(".")[2] != key)
-        few = [f"{name} (`{path}`)" for name, path in nearest[:_NAMED_KINDS]]
+        few = [f"{name} (`{path}`)" for name, path in nearest[:_NAMED]]
         others = ", ..." if len(having) > len(few) else ""
         return f"{kind} has no {key[:_LONGEST_WORD]}: kinds that have it: {', '.join(few)}{others}"
 
@@ -480,6 +488,17 @@ class _Wording:
         if len(key) > _LONGEST_WORD or folded(key) in map(folded, allowed):
             return None
         return meaning_in(key, str(self.loaded.data.get("kind", "")), parent)
+
+    def _translation(self, key: str, allowed: Sequence[str]) -> str:
+        """The keys for a word that is German or Chinese, of this section first; nothing for another word."""
+        from gearlink.cli.glossary import translated
+
+        found = translated(key, str(self.loaded.data.get("kind", ""))) if len(key) <= _LONGEST_WORD else None
+        if found is None or _spelled(key) in allowed:
+            return ""
+        term, paths = found
+        here = [name for path in paths if (name := path.rpartition(".")[2]) in allowed]
+        return f"{key} is the {term}: key {' or '.join(f'`{path}`' for path in here[:1] or paths[:_NAMED])}"
 
     def explained(self, findings: Sequence[_Finding]) -> set[str]:
         """The keys that words instead of them stand for, and their sections: that they are missing is said already."""

@@ -129,7 +129,7 @@ def wrong_unit(written: str, unit: str, key: str) -> tuple[str, str, str]:
     others = [name for name, names in UNITS.items() if written in names]
     if others:
         return "GL181", f"{written} is {_WORDS[others[0]]}, {key} is {_measured(unit)}", listed
-    near = get_close_matches(written, taken, n=1, cutoff=0.5)
+    near = ["deg"] if unit == "deg" and written.lower() == "grad" else get_close_matches(written, taken, 1, 0.5)
     listed = f"did you mean {near[0]}? {listed}" if near else listed
     return "GL180", f"no unit {written!r} for {key}, which is {_measured(unit)}", listed
 

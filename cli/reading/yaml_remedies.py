@@ -88,6 +88,10 @@ def syntax_error(source: Source, base: int, error: YAMLError) -> Diagnostic:
         return long
     if "could not find expected ':'" in problem:
         at = opened
+        if entry := re.match(r"-([^\s-]\S*)", source.text[at : at + _SHOWN]):
+            message = "no space after the hyphen of a list entry"
+            negative = f", or '- -{entry[1]}' for a negative number" if entry[1][0].isdigit() else ""
+            return source.report("GL103", message, at, help=f"write '- {entry[1]}'{negative}")
     if "end of stream" in problem:
         return source.report(
             "GL103", "a quotation mark that is never closed", opened, help="write it at the end of the text as well"

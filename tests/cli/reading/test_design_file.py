@@ -420,6 +420,10 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
         ("0xG", "write it in decimals"),
         ("1e", "write the exponent as in 1e3"),
         ("1e5_0", "write the exponent as in 1e3"),
+        ("“3”", "it holds U+201C (left double quotation mark): write 3"),
+        ("1’000", "it holds U+2019 (right single quotation mark): write 1000"),
+        ("60;", "write 60"),
+        ("1.2,", "write 1.2"),
         ("2O", "a letter instead of a digit: write 20"),
         ("8000/60", "write 133.3333333"),
         ("72 / 2", "write 36"),
@@ -431,6 +435,16 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
 )
 def test_texts_that_were_meant_as_numbers(text: str, remedy: str) -> None:
     assert number_remedy(text) == remedy
+
+
+@pytest.mark.parametrize(
+    ("text", "degrees"),
+    [("15°30'", "15.5"), ("15° 7.5'", "15.125"), ("0°0'36\"", "0.01"), ("1° 1' 1.8''", "1.017166667")],
+)
+def test_an_angle_in_minutes_and_seconds_is_converted(text: str, degrees: str) -> None:
+    """A minute is 1/60 of a degree, a second 1/60 of a minute."""
+    assert number_remedy(text, "deg") == f"write {degrees}"
+    assert number_remedy(text, "mm") != f"write {degrees}"
 
 
 @pytest.mark.parametrize("text", ["DP12", "12DP", "dp 12", "12 DP"])

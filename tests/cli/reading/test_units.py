@@ -10,7 +10,7 @@ import pytest
 
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.reading.units import UNITS, converted, split
+from gearlink.cli.reading.units import UNITS, converted, split, wrong_unit
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
 
@@ -171,6 +171,10 @@ def test_refused(text: str, code: str, key: str, words: str) -> None:
     (found,) = refused.value.diagnostics
     assert (found.code, found.key) == (code, key)
     assert words in found.message
+
+
+def test_german_degrees_are_no_radians() -> None:
+    assert wrong_unit("Grad", "deg", "angle")[2].startswith("did you mean deg?")
 
 
 def test_teeth_take_no_unit() -> None:

@@ -90,6 +90,12 @@ def test_a_word_names_the_key_of_its_kind(kind: str, meaning: Meaning) -> None:
         ("hypocycloid-dwell", "", "stroke", 160, "stroke is a result: it follows from the gears: quantity `stroke`"),
         ("swing-gripper", "", "dwell_angle", 60,
          "dwell_angle is the cylinder angle of a dwell here: write `near_dwell: 60` or `far_dwell: 60` in `phases`"),
+        ("crank-rocker", "", "time_ratio", "1,2",
+         "time_ratio is the time ratio of the strokes here: write `quick_return_ratio: ...` in `swing`"),
+        ("gear-pair", "", "Zähnezahl", [20, 40], "Zähnezahl is the number of teeth: key `teeth`"),
+        ("gear-pair", "", "模数", 3, "模数 is the module: key `module`"),
+        ("crank-rocker", "", "Schwinge", 60, "Schwinge is the rocker: key `links.rocker`"),
+        ("crank-rocker", "swing", "Gestell", 100, "Gestell is the frame: key `frame`"),
     ],
 )  # fmt: skip
 def test_the_help_has_the_value_of_the_file(kind: str, section: str, word: str, value: Any, help: str) -> None:
@@ -97,6 +103,12 @@ def test_the_help_has_the_value_of_the_file(kind: str, section: str, word: str, 
     inner = data.setdefault(section, {}) if section else data
     inner[word] = value
     assert help in [each.help for each in told(data)]
+
+
+def test_a_key_of_a_section_is_no_misspelled_one_beside_it() -> None:
+    """`angle` at the top level is that of `swing`, not `range`, though four of their five letters are the same."""
+    helps = [each.help for each in told({"kind": "crank-rocker", "angle": 60})]
+    assert any(help.startswith("it belongs to 'swing'") for help in helps)
 
 
 def test_a_key_misspelled_in_its_own_section_is_that_key() -> None:

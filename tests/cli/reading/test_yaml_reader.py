@@ -166,6 +166,7 @@ def test_byte_order_mark_is_no_part_of_the_text(parser: Any) -> None:
         ("a: 1\nb：2\nc: 3\n", (2, 2), "U+FF1A"),
         ("{a： 1}\n", (1, 3), "U+FF1A"),
         ("module:4\ncrank: 3\n", (1, 7), "no space after the colon of 'module'"),
+        ("teeth:\n  - 20\n  -40\ncrank: 3\n", (3, 3), "no space after the hyphen of a list entry"),
         ("a: 1\nmodule:4\n", (2, 7), "no space after the colon of 'module'"),
         ("a: 1\n---\nb: 2\n", (2, 1), "second document"),
         ("a: 1\n...\nb: 2\n", (3, 1), "second document"),
