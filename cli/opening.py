@@ -81,11 +81,14 @@ def design(command: str | None = None, **keys: Any) -> Opened:
     Raises
         GearlinkError - as `load`; the lines are those of the keys written as JSON
         NoSolution - as `load`, when a quantity is read
+        TypeError - a kind in the place of the command
     Example
         >>> crank = design(kind="slider-crank", stroke=310, rod=520, offset=50)
         >>> round(crank.crank_length, 6)
         154.211592
     """
+    if isinstance(command, str) and command in KINDS and "kind" not in keys:
+        raise TypeError(f"{command} is a kind, no command: write kind={command!r}")
     return _opened(parse(_keywords(keys).encode(), _KEYWORDS), command)
 
 
@@ -157,7 +160,10 @@ def _opened(loaded: LoadedFile, command: str | None) -> Opened:
 
 @cache
 def _placed(kind: type[Design]) -> type[Design]:
-    """The class of a design whose refusals know their place in its file, and whose lists the caller may write to."""
+    """The class of a design whose refusals know their place in its file, and whose lists the caller may write to.
+
+    Its keys and quantities cannot be set: what had been computed before would not follow.
+    """
     names = frozenset(kind.quantity_names())
 
     def get(self: Design, name: str) -> Any:
@@ -173,11 +179,18 @@ def _placed(kind: type[Design]) -> type[Design]:
     def raw(self: Design, name: str) -> Any:
         return _copied(kind.raw(self, name))
 
+    def put(self: Design, name: str, value: Any) -> None:
+        opened = "_loaded" in vars(self)
+        if opened and (name == "spec" or name in names or name in type(self.spec).model_fields):
+            raise AttributeError(f"{name}: a design does not change: gearlink.changed(design, {{...}}) makes another")
+        object.__setattr__(self, name, value)
+
     def reduce(self: Design) -> Any:
         return _opened, (vars(self)["_loaded"], vars(self)["_command"])
 
     own = {
         "__getattribute__": get,
+        "__setattr__": put,
         "raw": raw,
         "__reduce__": reduce,
         "__module__": kind.__module__,

@@ -147,6 +147,20 @@ class TestErrors:
         with pytest.raises(gearlink.GearlinkError, match="does not apply"):
             gearlink.design("press", **CRANK)
 
+    def test_a_kind_instead_of_the_command(self) -> None:
+        with pytest.raises(TypeError, match="write kind='gear-pair'"):
+            gearlink.design("gear-pair", module=3)
+
+    @pytest.mark.parametrize("name", ["stroke", "crank_length", "spec"])
+    def test_what_a_design_has_cannot_be_set(self, name: str) -> None:
+        """A result that was computed before would not follow; a note of one's own may be put beside it."""
+        crank = gearlink.design(**CRANK)
+        before = crank.crank_length
+        with pytest.raises(AttributeError, match=rf"^{name}: .*gearlink\.changed"):
+            setattr(crank, name, 5.0)
+        crank.remark = "mine"
+        assert (crank.crank_length, crank.remark) == (before, "mine")
+
     def test_no_such_name(self) -> None:
         with pytest.raises(AttributeError, match="'loaad'"):
             gearlink.loaad  # noqa: B018
