@@ -470,7 +470,7 @@ def _law(name: str) -> Topic:
     )
     paragraphs = {
         "What": what,
-        "Formula": _LAW_FORMULAS.get(name.removeprefix("half-").removeprefix("velocity-"), _MCV) + _LAW_USE[_use(name)],
+        "Formula": _law_formula(name.removeprefix(_use(name))) + _LAW_USE[_use(name)],
         "Peaks": ", ".join(f"{words} {value:.6g}" for words, value in peaks),
         "Joins a dwell": joins,
         "Source": "VDI 2143; SCCA family: own derivation",
@@ -478,6 +478,10 @@ def _law(name: str) -> Topic:
     if not rest:
         paragraphs["Share"] = f"kappa = {found.kappa:.6g} of (end speed) x (time) is travelled"
     return Topic("law", name, f"law of motion, {found.kind}", paragraphs)
+
+
+def _law_formula(name: str) -> str:
+    return _MCV if name.startswith("mcv-") else _LAW_FORMULAS[name]
 
 
 def _use(name: str) -> str:

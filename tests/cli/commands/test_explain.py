@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from pathlib import Path
@@ -17,6 +18,7 @@ from gearlink.cli.texts.schema import index, inner_keys
 from gearlink.core.base.codes import rules
 from gearlink.core.base.kinds import FILES as KINDS
 from gearlink.core.base.nomenclature import TERMS
+from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
 ROOT = Path(__file__).parents[3]
 PATHS = [
@@ -187,6 +189,22 @@ def test_law_gives_its_peaks(gearlink: Any) -> None:
     topic = gearlink("explain", "cycloidal", "--format", "json").json["topics"][0]
     assert "velocity Cv 2, acceleration Ca 6.28319, jerk Cj 39.4784" in topic["peaks"]
     assert gearlink("explain", "velocity-345").out.count("kappa = 0.5 ") == 1
+
+
+@pytest.mark.parametrize("name", REST_TO_REST)
+def test_a_law_has_a_formula_of_its_own(name: str) -> None:
+    """That of another law is no answer for a new one; where it gives s, it is evaluated as it stands.
+
+    Tolerance: 1e-14, a few roundings of terms up to 84.
+    """
+    (topic,) = [each for each in find(name) if each.title.startswith("law of motion")]
+    formula = topic.paragraphs["Formula"]
+    assert ("middle runs NN percent" in formula) == name.startswith("mcv-")
+    if formula.startswith("s = "):
+        written = re.sub(r"(?<=[\w)]) (?=[a-z])", "*", formula.removeprefix("s = ")).replace("^", "**")
+        for x in (0.0, 0.2, 0.5, 0.9):
+            at = eval(written, {"x": x, "pi": math.pi, "sin": math.sin, "cos": math.cos})
+            assert at == pytest.approx(law(name).derivatives(x, 0, 0)[0], abs=1e-14)
 
 
 def test_list_of_codes(gearlink: Any) -> None:
