@@ -1,7 +1,5 @@
 """The design file of a push rod."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
