@@ -637,7 +637,7 @@ def _notes(pair: GearPair, number: int, profile: ToothProfile, hand: str) -> tup
         f"tip radius {profile.outer_radius:.9g} mm, root radius {profile.root_radius:.9g} mm, "
         f"tooth thickness on the reference circle (normal section) {pair.tooth_thickness[number]:.9g} mm",
         f"root cut by a rack tool with a tip rounding of {profile.tool_rounding:.6g} module; involute from "
-        f"{profile.form_radius:.9g} mm" + (", undercut" if profile.undercut else ""),
+        f"radius {profile.form_radius:.9g} mm" + (", undercut" if profile.undercut else ""),
         "no backlash: thin the teeth by the allowance that the drawing gives",
         f"frame: gear axis at the origin, middle of a tooth space on the x axis{section}",
     ]

@@ -274,8 +274,11 @@ def show_table(
         for part in _by_mesh(table):
             show_table(part, console, most, scale=scale, digits=digits, alone=alone)
         return
+    if not table.length:
+        console.print(Text.assemble("\n", (table.name, "bold"), ": no rows"))
+        return
     # Every row of a table that begins with a word says something else; a list that holds one is read whole.
-    words = [isinstance(column[0], str) for column in table.data] if table.length else [False]
+    words = [isinstance(column[0], str) for column in table.data]
     in_words = words[0] or (any(words) and table.length <= 4 * most)
     step = 1 if in_words else max(1, math.ceil(table.length / most))
     if step > 1:

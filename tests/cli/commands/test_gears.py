@@ -126,6 +126,7 @@ def test_pairs_beyond_a_limit_come_last_and_are_said_to_be_alone(gearlink: Any) 
 def test_nothing_found_is_a_finding(gearlink: Any) -> None:
     ended = gearlink("gears", "--ratio", 3.2, "--center-distance", 1)
     assert ended.status == 1
+    assert ended.out.endswith("\ncandidates: no rows\n")  # no heads of columns in parts, with nothing below
     assert "widen --shift-sum" in ended.err
 
 
