@@ -220,7 +220,7 @@ def _results(report: Report) -> Iterator[str]:
             (
                 q.name.replace("_", " "),
                 q.symbol,
-                number(quiet(q.value, scale.get(q.unit, 0.0)), 9),
+                _below_each_other(quiet(q.value, scale.get(q.unit, 0.0))),
                 "" if q.unit == "1" else q.unit,
                 q.words,
                 term(q.name).source,
@@ -237,6 +237,12 @@ def _results(report: Report) -> Iterator[str]:
         yield "<h3>Checks</h3>" + table(("status", "check", "finding"), findings, numeric=(), marked=True)
     for each in report.tables:
         yield _data(each, scales(report))
+
+
+def _below_each_other(value: Any) -> str:
+    """Limits of several gears on lines of their own: in one line they leave the words beside them no room."""
+    several = isinstance(value, list) and value != [] and all(isinstance(each, list) for each in value)
+    return "\n".join(number(each, 9) for each in value) if several else number(value, 9)
 
 
 def shown_rows(given: Table) -> int:

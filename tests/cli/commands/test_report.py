@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from factory import design
 from matplotlib.figure import Figure
 from sweeps import ALL
 
@@ -115,6 +116,15 @@ def test_sheets_drawn_side_by_side_are_the_same(
         assert gearlink("report", designs / "two_gear_drag_link.yaml", "--out", out, "-q").status in (0, 1)
         pages.append((out / "two-gear-drag-link.html").read_bytes())
     assert pages[0] == pages[1]
+
+
+def test_limits_of_two_gears_are_lines_of_a_cell() -> None:
+    """Four numbers side by side, which do not break, left the meanings a column of three words."""
+    page = "".join(sections._results(design("gear_pair").report("gear")))
+    (cell,) = re.findall(r"<td>span measurement limits</td><td>[^<]*</td><td class=n>(.*?)</td>", page)
+    assert [len(line.split()) for line in cell.split("<br>")] == [2, 2]
+    widest = max(len(line) for cell in re.findall(r"<td class=n>(.*?)</td>", page) for line in cell.split("<br>"))
+    assert widest < 30
 
 
 def test_keys_in_force_are_written_as_in_a_file() -> None:
