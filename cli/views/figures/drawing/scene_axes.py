@@ -31,6 +31,8 @@ _SHORT = 5
 
 AHEAD = 1e-5
 """So far ahead in the loop is the position that tells in which sense a gear turns."""
+_LEAST_ARC = 0.07
+"""Radius of the arc that shows how the input turns, in sizes of the drawing."""
 
 
 def draw(
@@ -148,7 +150,10 @@ def turning(
 
 
 def _free_radius(shown: Scene, axis: complex) -> float:
-    """Half of the shortest bar or the smallest disc about an axis; without either a tenth of the drawing."""
+    """Half of the shortest bar or the smallest disc about an axis; without either a tenth of the drawing.
+
+    Never less than `_LEAST_ARC` of it: about a hollow disc or a small eccentric the head of the arrow hid its arc.
+    """
     whole = _size(shown)
     joints = [[complex(joint[0]) for joint in part.joints] for part in shown.parts if isinstance(part, Chain)]
     pairs = [pair for each in joints if len(each) > 1 for pair in (each[:2], each[:-3:-1])]
@@ -156,7 +161,7 @@ def _free_radius(shown: Scene, axis: complex) -> float:
     for body in shown.parts:
         if isinstance(body, Body) and abs(complex(body.place[0]) - axis) < 1e-9 * whole:
             found.append(0.5 * float(np.abs(body.outline).min()))
-    return min((radius for radius in found if radius > 1e-6 * whole), default=0.1 * whole)
+    return max(min((radius for radius in found if radius > 1e-6 * whole), default=0.1 * whole), _LEAST_ARC * whole)
 
 
 def sides(scene: Scene) -> tuple[float, float]:
