@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -514,6 +515,12 @@ _SCCA = {
 }
 _POLYNOMIALS = {"polynomial-345": POLYNOMIAL_345, "polynomial-4567": POLYNOMIAL_4567}
 _KINDS = {"": _rest_to_rest, "half-": _half_law, "velocity-": _velocity_law}
+_PARABOLIC = "{scca: [0, 1, 0, 0]}"
+_TEXTBOOKS = {"3-4-5": "polynomial-345", "4-5-6-7": "polynomial-4567", "shm": "simple-harmonic"}
+_TEXTBOOKS |= dict.fromkeys(("cosine", "cosine-acceleration"), "simple-harmonic")
+_TEXTBOOKS |= dict.fromkeys(("sine", "sine-acceleration", "bestehorn"), "cycloidal")
+_TEXTBOOKS |= dict.fromkeys(("parabolic", "constant-acceleration", "uniform-acceleration"), _PARABOLIC)
+"""What textbooks call laws that have another name here."""
 _SHORT = {"345": "polynomial-345", "4567": "polynomial-4567", "harmonic": "simple-harmonic"}
 
 REST_TO_REST: tuple[str, ...] = (*_SCCA, *_POLYNOMIALS, "mcv-50", "mcv-33", "mcv-20")
@@ -585,11 +592,13 @@ def _symmetric(name: str, asked: str) -> FirstHalf:
         q = 1.0 - _constant_share(name)
         return scca(0.25 * q, 0.0, 0.75 * q, 1.0 - q)
     known = (*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567")
-    near = difflib.get_close_matches(asked, known, n=1)
-    meant = f"did you mean {near[0]!r}? From" if near else "from"
+    plain = re.sub(r"[\s_]+", "-", asked.strip().lower())
+    near = [_TEXTBOOKS[plain]] if plain in _TEXTBOOKS else difflib.get_close_matches(plain, known, n=1)
+    meant = f"did you mean {near[0] if near[0] == _PARABOLIC else repr(near[0])}? " if near else ""
     raise NoSolution(
-        f"unknown motion law {named(asked)}: {meant} rest to rest: {', '.join(REST_TO_REST)}; from rest to speed: "
-        "half-<law>, velocity-<law>; with numbers: {scca: [a, b, c, d]} or {type: ...}"
+        f"unknown motion law {named(asked)}",
+        fix=f"{meant}from rest to rest: {', '.join(REST_TO_REST)}; from rest to speed: half-<law>, velocity-<law>; "
+        "with numbers: {scca: [a, b, c, d]} or {type: ...}",
     )
 
 

@@ -325,6 +325,8 @@ def test_rounding_past_the_end_is_no_error() -> None:
     ("definition", "words"),
     [
         ("cycloid", "did you mean 'cycloidal'"),
+        ("3-4-5", "did you mean 'polynomial-345'"),
+        ("Constant acceleration", "did you mean {scca: [0, 1, 0, 0]}?"),
         ("parabolic", "{scca: [a, b, c, d]}"),
         ("velocity-354", "did you mean 'velocity-345'"),
         ("half-simple-harmonic", "half-cycloidal"),
