@@ -114,9 +114,8 @@ def _safety(
         status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
         what, fix = f"{data.called(gear)}: {called}", "take a greater face width, a larger module or a better material"
         said = note
-        if status != "pass" and (shared := _uneven(rule, data, gear)):
-            uneven, fix = shared
-            said = f"{note}; {uneven}"
+        if status != "pass" and (shared := _uneven(rule, data, gear, safety, max(least, 1.0))):
+            said, fix = f"{note}; {shared[0]}", shared[1] or fix
         yield rule.check(status, what, safety, least, recommended=1.0, aside=aside, fix=fix, note=said)
 
 
@@ -126,8 +125,9 @@ def _both_ways(data: GearData, gear: int) -> bool:
     return data.idlers[gear]
 
 
-def _uneven(rule: Rule, data: GearData, gear: int) -> tuple[str, str] | None:
-    """What the load across the face takes of a safety, and what would give it back; None where it takes little."""
+def _uneven(rule: Rule, data: GearData, gear: int, safety: float, least: float) -> tuple[str, str] | None:
+    """What the load across the face takes of a safety, and what would give enough of it back, or nothing where an even
+    load is too much as well; None where it takes little."""
     rated = data.rated
     if rated is None or "face_contact" in rated.given or rated.at_load.face_contact <= _UNEVEN:
         return None
@@ -136,11 +136,15 @@ def _uneven(rule: Rule, data: GearData, gear: int) -> tuple[str, str] | None:
     taken = 1.0 - (at.face_contact**-0.5 if contact else 1.0 / at.face_bending)
     symbol, value = ("K_Hb", at.face_contact) if contact else ("K_Fb", at.face_bending)
     text = f"{symbol} {value:.3g} reduces the safety by {100.0 * taken:.0f} %"
-    if given.modification != "none" or given.misalignment is not None:
-        return text, f"reduce {symbol}: a stiffer shaft, a smaller face width or less misalignment (rating.face)"
-    crowned = replace(rated, conditions=replace(given, modification="crowning"))
-    safety = (crowned.safety_pitting if contact else crowned.safety_bending)[gear]
-    return text, f"set rating.face.modification to crowning, which gives a safety of {safety:.3g}"
+    remedy = f"reduce {symbol}: a stiffer shaft, a smaller face width or less misalignment (rating.face)"
+    if given.modification == "none" and given.misalignment is None:
+        crowned = replace(rated, conditions=replace(given, modification="crowning"))
+        reached = (crowned.safety_pitting if contact else crowned.safety_bending)[gear] or 0.0
+        crowning = f"set rating.face.modification to crowning, which gives a safety of {short(reached)}"
+        if reached >= least:
+            return text, crowning
+        remedy = f"{crowning}, and take a better grade or a stiffer shaft"
+    return text, remedy if safety >= least * (1.0 - taken) else ""
 
 
 def _out_of_range(data: GearData) -> Iterator[Check]:

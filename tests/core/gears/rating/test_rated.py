@@ -558,7 +558,28 @@ def test_a_failing_safety_says_what_helps() -> None:
     crowned = of("safety_pitting", rating={"face": {"modification": "crowning"}})[0]
     assert "gear 1: pitting safety S_H" in first.message
     assert "K_Hb 1.49 reduces the safety by 18 %" in first.note[0]
-    assert first.fix.endswith(f"crowning, which gives a safety of {crowned:.3g}")
+    assert f"to crowning, which gives a safety of {crowned:.4g}, and take a better grade" in first.fix
+
+
+@pytest.mark.parametrize(
+    ("torque", "plain", "words"),
+    [(150, True, "set rating.face"), (220, True, "set rating.face"), (400, True, "take a greater"),
+     (400, False, "take a greater"), (220, False, "reduce K_Hb: a stiffer shaft")],
+)  # fmt: skip
+def test_an_even_load_is_named_where_it_helps_enough(torque: float, plain: bool, words: str) -> None:
+    """K_Hb of 1 is the most that any such remedy gives: beyond it only width, module and material are left."""
+    face = {"face": {"modification": "none" if plain else "crowning"}}
+    (first, _) = rated(load={"torque": torque}, rating=face).check("pitting")
+    assert (first.status, first.value < 1.0) == ("fail", True)
+    assert first.fix.startswith(words)
+    even_load = {"torque": torque, "factors": {"face_contact": 1.0}}
+    even = rated(load=even_load, rating={"face": None}).raw("safety_pitting")[0]
+    assert ("take a greater" in words) == (even < 1.0)
+    if words.startswith("set"):
+        (reached, _) = rated(load={"torque": torque}, rating={"face": {"modification": "crowning"}}).raw(
+            "safety_pitting"
+        )
+        assert ("and take a better grade" in first.fix) == (reached < 1.0)
 
 
 def test_a_remedy_names_nothing_that_the_file_has() -> None:
