@@ -424,7 +424,8 @@ class _Wording:
 
             return hint(meaning, key, value, parent, self.loaded.data)
         if translation := self._translation(key, allowed):
-            return translation
+            term, names = translation
+            return f"{key} is the {term}: key {' or '.join(f'`{name}`' for name in names)}"
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain, by_letters = _spelled(key), {name.lower(): name for name in allowed}  # A_radius beside W_radius
@@ -489,16 +490,16 @@ class _Wording:
             return None
         return meaning_in(key, str(self.loaded.data.get("kind", "")), parent)
 
-    def _translation(self, key: str, allowed: Sequence[str]) -> str:
-        """The keys for a word that is German or Chinese, of this section first; nothing for another word."""
+    def _translation(self, key: str, allowed: Sequence[str]) -> tuple[str, Sequence[str]] | None:
+        """The term that a German or Chinese word stands for, and its keys, that of this section alone if it has one."""
         from gearlink.cli.glossary import translated
 
         found = translated(key, str(self.loaded.data.get("kind", ""))) if len(key) <= _LONGEST_WORD else None
         if found is None or _spelled(key) in allowed:
-            return ""
+            return None
         term, paths = found
         here = [name for path in paths if (name := path.rpartition(".")[2]) in allowed]
-        return f"{key} is the {term}: key {' or '.join(f'`{path}`' for path in here[:1] or paths[:_NAMED])}"
+        return term, here[:1] or paths[:_NAMED]
 
     def explained(self, findings: Sequence[_Finding]) -> set[str]:
         """The keys that words instead of them stand for, and their sections: that they are missing is said already."""
@@ -514,6 +515,8 @@ class _Wording:
                 if meant := _meant(str(last), allowed, lacking):
                     found |= {format_path((*parent, meant))} if meant in lacking else self._asked_for(findings, parent)
                 meaning = self._meaning(str(last), tuple(parent), allowed)
+                if translation := self._translation(str(last), allowed):
+                    found.update(format_path((*parent, name)) for name in translation[1] if name in allowed)
                 for key in meaning.keys if meaning else ():
                     steps = key.split(".")
                     found.update(".".join(steps[:depth]) for depth in range(1, len(steps) + 1))

@@ -105,6 +105,11 @@ def test_the_help_has_the_value_of_the_file(kind: str, section: str, word: str, 
     assert help in [each.help for each in told(data)]
 
 
+def test_the_key_of_a_translated_word_is_not_said_to_be_missing_as_well() -> None:
+    wrong = told({"kind": "gear-pair", "Modul": 3, "Zähnezahl": [20, 40], "profile_shift": [0, 0]})
+    assert [(each.code, each.key) for each in wrong] == [("GL105", "Modul"), ("GL105", "Zähnezahl")]
+
+
 def test_a_key_of_a_section_is_no_misspelled_one_beside_it() -> None:
     """`angle` at the top level is that of `swing`, not `range`, though four of their five letters are the same."""
     helps = [each.help for each in told({"kind": "crank-rocker", "angle": 60})]
