@@ -142,10 +142,16 @@ def _below(folder: Path) -> list[Path]:
 
 
 def nearest_file(name: str, *, folders: bool = False) -> str:
-    """The file, or with `folders` also the folder, that a name was perhaps meant for; nothing where none is near."""
+    """The file, or with `folders` also the folder, that a name was perhaps meant for; nothing where none is near.
+
+    A design file is meant before what was written from it, such as its page, and alone where the name has its ending.
+    """
     from difflib import get_close_matches
 
-    by_stem = {os.path.splitext(there)[0]: there for there in reversed(_neighbours(name, folders))}
+    there = sorted(_neighbours(name, folders), key=lambda each: (each.endswith(ENDINGS), each))
+    if name.endswith(ENDINGS) and not folders:
+        there = [each for each in there if each.endswith(ENDINGS)]
+    by_stem = {os.path.splitext(each)[0]: each for each in there}
     near = get_close_matches(os.path.splitext(os.path.basename(name))[0], by_stem, n=1)
     return f"did you mean {os.path.join(os.path.dirname(name), by_stem[near[0]])}?" if near else ""
 

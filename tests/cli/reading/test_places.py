@@ -13,7 +13,7 @@ import pytest
 
 from gearlink.cli.reading.design_file import load
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.reading.places import design_files
+from gearlink.cli.reading.places import design_files, nearest_file
 
 CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
 
@@ -77,6 +77,14 @@ def test_a_folder_without_permission_is_reported(here: Path) -> None:
         os.seteuid(0)
     assert found == [Path("files/a.yaml"), Path("files/closed")]
     assert str(wrong.value) == "files/closed:1:1: error GL101: no permission to read it"
+
+
+def test_a_design_file_is_proposed_before_what_was_written_from_it(here: Path) -> None:
+    for name in ("press.html", "press.yaml", "press.csv", "cam.png"):
+        (here / name).write_text("")
+    assert nearest_file("pres") == nearest_file("pres.yaml") == "did you mean press.yaml?"
+    assert nearest_file("cm.yaml") == ""
+    assert nearest_file("cm.csv") == "did you mean cam.png?"
 
 
 def test_a_link_that_leads_nowhere(gearlink: Any, here: Path) -> None:
