@@ -1,20 +1,21 @@
 """Plain command lines of the commands that are used most, read without Typer, whose import takes longer than most.
 
 Only what is certain is taken: a design command or `report`, one design file, options spelled out with proper values;
-and `check`, `explain`, `new`, `schema` and `verify` without options.
+and `animate`, `batch`, `check`, `explain`, `explore`, `new`, `schema`, `sheet` and `verify` without options.
 For all else `plain_line` gives None and Typer reads the line, so that help, abbreviations and every error are its own.
 A test holds the two readings to the same result.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
 
 from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Format, Option, Options
 
 Line: TypeAlias = tuple[str, str, Options]
 """Command, design file, options."""
+Words: TypeAlias = tuple[str, ...]
 
 _BY_FLAG = {flag: name for name, option in OPTIONS.items() for flag in option.flags}
 
@@ -42,7 +43,7 @@ def plain_line(arguments: list[str]) -> Line | None:
 
 
 def plain_reference(arguments: list[str]) -> tuple[str, ...] | None:
-    """Command and words of a plain line of `check`, `verify`, `explain`, `new` and `schema`; None where Typer reads it.
+    """Command and words of a plain line of a command without options; None where Typer reads it.
 
     Example
         >>> plain_reference(["explain", "GL301"])
@@ -51,38 +52,87 @@ def plain_reference(arguments: list[str]) -> tuple[str, ...] | None:
         True
     """
     command, *words = arguments or [""]
-    if any(not word or word.startswith("-") for word in words):
+    if command not in _PLAIN or any(not word or word.startswith("-") for word in words):
         return None
-    served = (
-        command == "verify" or (command in ("check", "explain") and words) or (command in REFERENCE and len(words) == 1)
-    )
-    return (command, *words) if served else None
-
-
-REFERENCE = ("new", "schema")
+    _, fewest, most = _PLAIN[command]
+    return (command, *words) if fewest <= len(words) <= most else None
 
 
 def run_reference(command: str, *words: str) -> int:
     """Run one of these commands without options, and give the exit status."""
-    if command == "check":
-        from gearlink.cli.commands.check import run_check
+    run, _, _ = _PLAIN[command]
+    return run(words)
 
-        return run_check(words, Options())
-    if command == "verify":
-        from gearlink.cli.commands.verify import run_verify
 
-        return run_verify(words, Options())
-    if command == "explain":
-        from gearlink.cli.commands.explain import run_explain
+def _animate(words: Words) -> int:
+    from gearlink.cli.commands.animate import Asked, run_animate
 
-        return run_explain(" ".join(words), Format.TABLE)
-    if command == "new":
-        from gearlink.cli.commands.new import run_new
+    return run_animate(words[0], Asked(), Options())
 
-        return run_new(words[0], None)
+
+def _batch(words: Words) -> int:
+    from gearlink.cli.batch.options import BatchOptions
+    from gearlink.cli.batch.run import run_batch
+
+    return run_batch(words, BatchOptions())
+
+
+def _check(words: Words) -> int:
+    from gearlink.cli.commands.check import run_check
+
+    return run_check(words, Options())
+
+
+def _explain(words: Words) -> int:
+    from gearlink.cli.commands.explain import run_explain
+
+    return run_explain(" ".join(words), Format.TABLE)
+
+
+def _explore(words: Words) -> int:
+    from gearlink.cli.exploring.options import Exploring
+    from gearlink.cli.exploring.run import run_explore
+
+    return run_explore(Exploring(Options(), words[0]))
+
+
+def _new(words: Words) -> int:
+    from gearlink.cli.commands.new import run_new
+
+    return run_new(words[0], None)
+
+
+def _schema(words: Words) -> int:
     from gearlink.cli.commands.schema import run_schema
 
     return run_schema(words[0])
+
+
+def _sheet(words: Words) -> int:
+    from gearlink.cli.commands.sheet import Asked, run_sheet
+
+    return run_sheet(words[0], list(words[1:]), Options(), Asked())
+
+
+def _verify(words: Words) -> int:
+    from gearlink.cli.commands.verify import run_verify
+
+    return run_verify(words, Options())
+
+
+_MANY = 1_000_000
+_PLAIN: dict[str, tuple[Callable[[Words], int], int, int]] = {
+    "animate": (_animate, 1, 1),
+    "batch": (_batch, 1, _MANY),
+    "check": (_check, 1, _MANY),
+    "explain": (_explain, 1, _MANY),
+    "explore": (_explore, 1, 1),
+    "new": (_new, 1, 1),
+    "schema": (_schema, 1, 1),
+    "sheet": (_sheet, 1, _MANY),
+    "verify": (_verify, 0, _MANY),
+}
+"""Commands without options: what runs them, the fewest and the most words."""
 
 
 def run_line(command: str, source: str, options: Options) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -147,15 +148,28 @@ REFERENCES = [
     ["verify", "no-such-book"],
     ["check", "ty460_slider_crank.yaml"],
     ["check", "ty460_slider_crank.yaml", "no_such.yaml"],
+    ["batch", "ty460_slider_crank.yaml", "gear_pair.yaml", "no_such.yaml"],
+    ["explore", "studies/gear_pair.yaml"],
+    ["explore", "gear_pair.yaml"],
+    ["animate", "no_such.yaml"],
+    ["sheet", "no_such.yaml", "motion"],
+    pytest.param(["animate", "ty460_slider_crank.yaml"], marks=pytest.mark.slow),
+    pytest.param(["sheet", "gear_pair.yaml", "drawing"], marks=pytest.mark.slow),
 ]
 
 
 @pytest.mark.parametrize("arguments", REFERENCES)
 def test_reference_lines_do_what_typer_does(
-    arguments: list[str], designs: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    arguments: list[str],
+    designs: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """The same text on both streams, the same status."""
-    monkeypatch.chdir(designs)
+    place = tmp_path / "designs"
+    shutil.copytree(designs, place)
+    monkeypatch.chdir(place)
     words = plain_reference(arguments)
     assert words is not None
     quick = run_reference(*words), *capsys.readouterr()
@@ -173,6 +187,9 @@ def test_reference_lines_do_what_typer_does(
         ["schema", "--write", "x"],
         ["check", "-"],
         ["check", "a.yaml", "--strict"],
+        ["animate", "a.yaml", "b.yaml"],
+        ["batch"],
+        ["batch", "a", "--plot"],
         ["diff", "a"],
     ],
 )

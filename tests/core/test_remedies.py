@@ -414,14 +414,3 @@ def test_no_shaft_of_less_than_nothing() -> None:
     found = [check for check in made.check("shaft-clearance") if check.status == "fail"]
     assert found
     assert not any("at most -" in check.message for check in found)
-
-
-@pytest.mark.parametrize(("name", "command"), [("crank_rocker", "analyze"), ("five_bar_path", "analyze")])
-def test_a_little_transmission_angle_that_warns_has_a_value_too(name: str, command: str) -> None:
-    """The words alone would lead astray: of this five-bar the shorter coupler helps."""
-    made = factory.design(name, command=command)
-    (found,) = made.findings(command, "transmission-angle")
-    assert found.status == "warn"
-    assert found.remedy
-    after = type(made)(changed(made.given, found.remedy))
-    assert [check.status for check in after.check("transmission-angle")] == ["pass"]

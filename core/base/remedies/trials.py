@@ -48,7 +48,7 @@ _MUCH, _OF_WAY = 2.0, 3
 """A trial that costs so many times as much as the design is dear; values of one way that are worth one."""
 
 
-_ADVISED = frozenset(("transmission-angle", "roller-skid", "critical-speed"))
+_ADVISED = frozenset(("roller-skid", "critical-speed"))
 """Checks for which it is sought where they warn as well: a word of advice without a value would often be wrong."""
 
 

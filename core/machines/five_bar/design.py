@@ -961,12 +961,11 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_transmission_angle(self) -> Check:
-        """GL303."""
-        limit, at = (
-            self.spec.limits.transmission_angle,
-            f"input angle {short(math.degrees(self.min_transmission_angle_at))} deg",
-        )
-        return transmission_check(self.min_transmission_angle, limit, "lengthen the two links of the dyad", at=at)
+        """GL303: its last two links are folded where the pins are nearest to each other, else stretched."""
+        place, links = self.min_transmission_angle_at, "coupler and follower" if self.is_path else "follower and output"
+        change = "shorten" if place == self.span_min_at else "lengthen"
+        limit, at = self.spec.limits.transmission_angle, f"input angle {short(math.degrees(place))} deg"
+        return transmission_check(self.min_transmission_angle, limit, f"{change} {links}", at=at)
 
 
 def _closes(design: GearedFiveBar) -> bool:

@@ -365,3 +365,18 @@ def test_whole_period_is_the_range_of_a_function_without_one():
     assert made.input_range == (0.0, 2.0 * math.pi)
     table = made.table("function")
     assert table.data[1][-1] == pytest.approx(table.data[1][0], abs=1e-11)
+
+
+@pytest.mark.parametrize(("length", "change", "factor"), [(60.0, "shorten", 0.98), (43.0, "lengthen", 1.02)])
+def test_links_that_fold_are_to_be_shortened_and_stretched_ones_lengthened(
+    length: float, change: str, factor: float
+) -> None:
+    """It said always to lengthen both, which made folded ones worse."""
+
+    def of(length: float):
+        links = {"input": 20.0, "coupler": length, "follower": length, "output": 20.0}
+        return factory.design("five_bar_path", links=links, limits={"transmission_angle": 50.0})
+
+    (found,) = of(length).check("transmission-angle")
+    assert (found.status, found.advice) == ("fail", f"{change} coupler and follower")
+    assert of(factor * length).min_transmission_angle > of(length).min_transmission_angle
