@@ -67,7 +67,7 @@ _REASONS = """## Where a goal is missed, and why
   of numpy for sweeps and of rich for tables on a terminal.
 * **Figures, reports, animations.** In `cam --plot` the imports of matplotlib and numpy take a third, drawing a fifth
   (half of it texts), making the panels an eighth and their layout a tenth. `gear --plot` draws six panels with symbols
-  in mathematical type and the blocking contour, `swing --plot` eight panels; `press --plot` takes 1.39
+  in mathematical type and the blocking contour, `swing --plot` eight panels; `press --plot` takes 1.36
   to 1.44 from run to run. A report computes and draws its commands in as many processes as there are processors. An
   animation with real teeth takes some 5 ms a frame for polygons, colours and encoding, in as many processes.
 * **All examples.** The folder contains searches, studies and loads of one or two seconds each (the function of a
