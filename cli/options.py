@@ -207,6 +207,8 @@ OPTIONS = {
 
 OF_REPORT = ("out", "overrides", "strict", "quiet")
 """Those that `report` has."""
+OF_ANIMATE = ("out", "overrides", "quiet")
+"""Those that `animate` has, besides its own."""
 
 COMMANDS = {
     "analyze": "Full analysis of a design: kinematics over a revolution, dwells, all checks.",

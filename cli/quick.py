@@ -1,7 +1,7 @@
 """Plain command lines of the commands that are used most, read without Typer, whose import takes longer than most.
 
-Only what is certain is taken: a design command or `report`, one design file, options spelled out with proper values;
-and `animate`, `batch`, `check`, `explain`, `explore`, `new`, `schema`, `sheet` and `verify` without options.
+Only what is certain is taken: a design command, `report` or `animate`, one design file, options spelled out with proper
+values; and `batch`, `check`, `explain`, `explore`, `new`, `schema`, `sheet` and `verify` without options.
 For all else `plain_line` gives None and Typer reads the line, so that help, abbreviations and every error are its own.
 A test holds the two readings to the same result.
 """
@@ -11,12 +11,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
 
-from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Format, Option, Options
+from gearlink.cli.options import COMMANDS, OF_ANIMATE, OF_REPORT, OPTIONS, Format, Option, Options
 
 Line: TypeAlias = tuple[str, str, Options]
 """Command, design file, options."""
 Words: TypeAlias = tuple[str, ...]
 
+_OWN = {"report": OF_REPORT, "animate": OF_ANIMATE}
+"""The options of other commands on a design file."""
 _BY_FLAG = {flag: name for name, option in OPTIONS.items() for flag in option.flags}
 
 
@@ -37,7 +39,7 @@ def plain_line(arguments: list[str]) -> Line | None:
         sources, chosen = _read(iter(rest))
     except (LookupError, ValueError, StopIteration):
         return None
-    if command == "report" and not chosen.keys() <= set(OF_REPORT):
+    if not chosen.keys() <= set(_OWN.get(command, chosen)):
         return None
     return (command, sources[0], Options(**chosen)) if len(sources) == 1 else None
 
@@ -62,12 +64,6 @@ def run_reference(command: str, *words: str) -> int:
     """Run one of these commands without options, and give the exit status."""
     run, _, _ = _PLAIN[command]
     return run(words)
-
-
-def _animate(words: Words) -> int:
-    from gearlink.cli.commands.animate import Asked, run_animate
-
-    return run_animate(words[0], Asked(), Options())
 
 
 def _batch(words: Words) -> int:
@@ -122,7 +118,6 @@ def _verify(words: Words) -> int:
 
 _MANY = 1_000_000
 _PLAIN: dict[str, tuple[Callable[[Words], int], int, int]] = {
-    "animate": (_animate, 1, 1),
     "batch": (_batch, 1, _MANY),
     "check": (_check, 1, _MANY),
     "explain": (_explain, 1, _MANY),
@@ -141,6 +136,10 @@ def run_line(command: str, source: str, options: Options) -> int:
         from gearlink.cli.commands.report import run_report
 
         return run_report(source, options)
+    if command == "animate":
+        from gearlink.cli.commands.animate import Asked, run_animate
+
+        return run_animate(source, Asked(), options)
     if options.suggest:
         from gearlink.cli.commands.suggest import run_suggested
 
@@ -153,7 +152,7 @@ def run_line(command: str, source: str, options: Options) -> int:
 def _command(arguments: list[str]) -> tuple[str, list[str]]:
     words = 2 if arguments[:1] == ["synth"] else 1
     command = " ".join(arguments[:words])
-    return (command, arguments[words:]) if command in COMMANDS or command == "report" else ("", [])
+    return (command, arguments[words:]) if command in COMMANDS or command in _OWN else ("", [])
 
 
 def _read(rest: Iterator[str]) -> tuple[list[str], dict[str, Any]]:

@@ -21,7 +21,7 @@ from gearlink.cli.export.options import (
     Export,
     FileFormat,
 )
-from gearlink.cli.options import OPTIONS, Format, Options, PlotFormat, file, folder, plain_file
+from gearlink.cli.options import OF_ANIMATE, OPTIONS, Format, Options, PlotFormat, file, folder, plain_file
 from gearlink.cli.typer_options import Dask, Jobs, Spec, keyed, offers, option, place, takes
 from gearlink.core.base.kinds import FILES
 
@@ -253,7 +253,7 @@ def _chart(
     )
 
 
-@takes("out", "overrides", "quiet")
+@takes(*OF_ANIMATE)
 def _animate(
     spec: Spec,
     options: Options,
