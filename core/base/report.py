@@ -310,6 +310,13 @@ class Table:
             return found.astype(float)
         return found
 
+    def __repr__(self) -> str:
+        return f"<table {self.name}: {self._size} of {', '.join(self.columns)}>"
+
+    @property
+    def _size(self) -> str:
+        return amount(self.length, "row")
+
     def _repr_html_(self) -> str:
         return table_as_html(self)
 
@@ -332,11 +339,15 @@ class Table:
         return replace(self, data=tuple(column[::step] for column in self.data))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class TableInParts(Table):
     """A table of any length whose rows are computed while they are read; `data` are those of its first part alone."""
 
     parts: Callable[[], Iterator[Table]]
+
+    @property
+    def _size(self) -> str:
+        return "rows in parts"
 
     def each_row(self) -> Iterator[tuple[float | str | None, ...]]:
         """The rows of one part after the other."""
@@ -365,6 +376,11 @@ class Report:
     tables: tuple[Table, ...] = field(default=())
     key: tuple[KeyResult, ...] = ()
     left_out: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        held = f"{amount(len(self.quantities), 'quantity', 'quantities')}, {amount(len(self.checks), 'check')}"
+        tables = f", tables {', '.join(table.name for table in self.tables)}" if self.tables else ""
+        return f"<report of {self.command}, {self.kind} {self.name!r}: {held}{tables}>"
 
     def _repr_html_(self) -> str:
         return report_as_html(self)

@@ -250,7 +250,7 @@ class TestNames:
             made: Any = gearlink.load(designs / f"{name}.yaml")
             rows: Any = np.int8(100)
             table = made.table_names()[0]
-            assert repr(made.table(table, samples=rows)) == repr(made.table(table, samples=100))
+            assert made.table(table, samples=rows).rows() == made.table(table, samples=100).rows()
 
     def test_figure_takes_commands_and_designs(self) -> None:
         with pytest.raises(gearlink.GearlinkError, match="no command named 'gripper'"):
@@ -275,6 +275,17 @@ def test_notebooks_show_reports_and_tables(designs: Path) -> None:
     assert "GL303 transmission-angle" in html
     hostile = gearlink.design(**{**CRANK, "name": "<script>"}).report("crank")
     assert "<script>" not in hostile._repr_html_()
+
+
+def test_prompts_show_what_reports_and_tables_hold(designs: Path) -> None:
+    """All columns and findings filled the screen."""
+    press = gearlink.load(designs / "ty460.yaml")
+    table, report = press.table("positions"), press.report("press")
+    assert repr(table) == f"<table positions: 12 rows of {', '.join(table.columns)}>"
+    held = f"{len(report.quantities)} quantities, {len(report.checks)} checks, tables positions"
+    assert repr(report) == f"<report of press, flatbed-press 'TY-460': {held}>"
+    many = press.table_in_parts("positions", 200_000)
+    assert repr(many).startswith("<table positions: rows in parts of input_angle, ")
 
 
 def test_long_tables_show_their_ends(designs: Path) -> None:

@@ -27,7 +27,8 @@ def _often() -> Iterator[None]:
 
 def everything(design: Any) -> str:
     found: list[Any] = [getattr(design.quantity(name), "value", None) for name in design.quantity_names()]
-    return repr((found, [design.table(name, samples=36) for name in design.outlines[vars(design)["_command"]].tables]))
+    names = design.outlines[vars(design)["_command"]].tables
+    return repr((found, [design.table(name, samples=36).rows() for name in names]))
 
 
 def together(work: Callable[[Any], Any], given: list[Any]) -> list[Any]:
