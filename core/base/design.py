@@ -361,18 +361,24 @@ class Design:
 
     def table_in_parts(self, name: str, samples: int) -> Table:
         """A table by name that holds some ten thousand of its rows at a time, where they can be computed so."""
-        # Two primes above the turns of any table, the length of none: one leaves a last part neither full nor empty.
+        # Two primes above the turns of any table: one leaves a last part neither full nor empty.
         size = next(prime for prime in _PART_SIZES if samples % prime)
+
+        def part(first: int) -> tuple[Table, bool]:
+            """So many rows from one on, and whether others follow: not in a table that is whole."""
+            rows = Rows.part(samples, first, size)
+            made = self.table(name, samples=rows)
+            return made, rows.cut and made.length == size
 
         def parts() -> Iterator[Table]:
             for first in count(0, size):
-                part = self.table(name, samples=Rows.part(samples, first, size))
-                yield part
-                if part.length != size:  # the last, or one that is whole
+                made, has_more = part(first)
+                yield made
+                if not has_more:
                     return
 
-        first = next(parts())
-        return first if first.length != size else TableInParts(name, first.columns, first.units, first.data, parts)
+        made, has_more = part(0)
+        return TableInParts(name, made.columns, made.units, made.data, parts) if has_more else made
 
     def check(self, name: str) -> list[Check]:
         """The findings of a check.

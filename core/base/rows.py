@@ -14,6 +14,8 @@ class Rows(int):
 
     first: int
     size: int
+    cut = False
+    """Whether a table took its part of the rows."""
 
     @classmethod
     def part(cls, count: int, first: int, size: int) -> Rows:
@@ -31,5 +33,6 @@ def row_numbers(samples: int | None, count: int) -> range:
         (range(0, 8), range(5, 8))
     """
     if isinstance(samples, Rows):
+        samples.cut = True
         return range(min(samples.first, count), min(samples.first + samples.size, count))
     return range(count)

@@ -114,7 +114,7 @@ class Panels:
         """Integral from the start of its panel to each place, of the polynomials through values at the nodes."""
         row = self.row(phi)
         width = self.edges[row + 1] - self.edges[row]
-        series = values.reshape(-1, self.order)[row] @ to_integral(self.order)
+        series = (values.reshape(-1, self.order) @ to_integral(self.order))[row]  # a place rounds as it does alone
         # a panel between two breaks that are one but for rounding is narrower than the rounding of its places
         place = np.clip(2.0 * (phi - self.edges[row]) / width - 1.0, -1.0, 1.0)
         terms = np.polynomial.legendre.legvander(place, self.order)
