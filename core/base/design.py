@@ -174,6 +174,8 @@ class Design:
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
     requirements: ClassVar[frozenset[str]] = frozenset(("speed", "input_speed", "loads.speed"))
     """Keys of what the machine has to do: a fix that changes one asks for less, and is sought last."""
+    repaired_where_they_warn: ClassVar[frozenset[str]] = frozenset()
+    """Checks whose remedy is computed, and so is named where they only warn as well; trials wait for what fails."""
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
     kin: Kin | None = None  # the designs of its file's other commands; None where it was made by itself

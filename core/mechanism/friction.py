@@ -355,20 +355,26 @@ def settled(
     Notes
         Where the friction outweighs what a pair of rollers bears, the other roller carries than without it; and the
         rollers of one pair may decide which of another carries. In each row the first pair whose roller does not push
-        is changed: that ends (Murty's rule) where sizes and signs are unique, of n pairs after 2^n changes at most.
+        is changed: that ends (Murty's rule) where sizes and signs are unique. Where a choice comes back, what is left
+        are rows at which either roller would have it the other way: both are idle there.
     """
     found = solution_of(mechanism, masses, applied, gravity, speed, friction)
     if friction is None and len(found.pulled) < 2:  # alone it keeps the sign that it was chosen by
         return found, _sizes(found, friction)
-    for _ in range(2 ** len(found.pulled) + 1):
+    seen = {_choice(found.pulled)}
+    while True:
         sizes = _sizes(found, friction)
         unknowns = found.rubbing.unknowns(sizes) if found.pulled else found.rubbing.free
         pulled = _first_changed(found, unknowns)
-        if pulled is None:
+        if pulled is None or (choice := _choice(pulled)) in seen:
             return found, sizes
+        seen.add(choice)
         found = solution_of(mechanism, masses, applied, gravity, speed, friction, pulled)
-    sizes = _sizes(found, friction)  # of rows at which either roller would have it the other way: both are idle there
-    return found, sizes
+
+
+def _choice(pulled: Pulled) -> bytes:
+    """Which roller of each pair carries in each row, to be told from another choice."""
+    return b"".join(each.tobytes() for each in pulled.values())
 
 
 def _sizes(found: Solution, friction: Coefficients | None) -> Reals:

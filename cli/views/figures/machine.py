@@ -145,33 +145,42 @@ _STATUS = {"pass": style.GREEN, "warn": style.ORANGE, "fail": style.WRONG}
 _INNER = 3.0
 
 
+_AROUND = 0.16
+"""Of the height of A4: title, axis and legend of the timing."""
+
+
 def draw(command: str, design: Any) -> Figure:
     """The picture of a command, as wide as a page."""
     if command == "loads":
         return _loads(design)
     if command == "register":
         return _register(design)
-    made = panels.page(f"{design.spec.name}: timing", 0.16 + 0.085 * len(design.spec.members), least=_height_of(design))
+    made = panels.page(
+        f"{design.spec.name}: timing", _AROUND + 0.085 * len(design.spec.members), least=_least_height(design, _ROW)
+    )
     _line(made.add_subplot(), design)
     return made
 
 
-def _height_of(design: Any, each: float = 0.034) -> float:
-    """Height that the members need at least, that of A4 being 1: each two lines of letters, above and below in a circle
-    one."""
-    return 0.16 + each * len(design.spec.members)
+_ROW, _RING = 0.034, 0.03
+"""Of the height of A4: two lines of letters in a row of the timing, and one in a ring, above and below its middle."""
+
+
+def _least_height(design: Any, each: float) -> float:
+    """Height in which the names of the members can be read, that of A4 being 1."""
+    return _AROUND + each * len(design.spec.members)
 
 
 def line_sheet(design: Any) -> Figure:
-    """The timing as a line, A3."""
-    made = panels.page(f"{design.spec.name}: timing", least=_height_of(design), large=True, lying=True)
+    """The timing as a line, A3 or larger."""
+    made = panels.page(f"{design.spec.name}: timing", least=_least_height(design, _ROW), large=True, lying=True)
     _line(made.add_subplot(), design)
     return made
 
 
 def circle_sheet(design: Any) -> Figure:
-    """The timing as a circle, A3."""
-    made = panels.page(f"{design.spec.name}: timing\n", least=_height_of(design, 0.03), large=True, lying=True)
+    """The timing as a circle, A3 or larger."""
+    made = panels.page(f"{design.spec.name}: timing\n", least=_least_height(design, _RING), large=True, lying=True)
     axes: Any = made.add_subplot(projection="polar")
     _circle(axes, design)
     return made

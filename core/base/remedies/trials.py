@@ -48,20 +48,17 @@ _MUCH, _OF_WAY = 2.0, 3
 """A trial that costs so many times as much as the design is dear; values of one way that are worth one."""
 
 
-_ADVISED = frozenset(("roller-skid", "critical-speed"))
-"""Checks for which it is sought where they warn as well: a word of advice without a value would often be wrong."""
-
-
 def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
     """The findings of a check; those that fail have the best remedy that was found, in data and words."""
-    if not any(found.status == "fail" or _is_advised(found) for found in findings):
+    if not any(found.status == "fail" or _is_sought(design, found) for found in findings):
         return findings  # what warns may be built: no report waits for its trials
     bench = design.bench(command)
     return tuple(_with(design, bench, found, index) for index, found in enumerate(findings))
 
 
-def _is_advised(found: Check) -> bool:
-    return found.status == "warn" and found.name in _ADVISED
+def _is_sought(design: Design, found: Check) -> bool:
+    """Whether a finding that warns has a remedy that is computed rather than tried."""
+    return found.status == "warn" and found.name in design.repaired_where_they_warn
 
 
 def _with(design: Design, bench: Bench, found: Check, index: int) -> Check:
@@ -104,7 +101,9 @@ class Bench:
             A failing check is to pass and no other finding to become worse; where no way leads there, it may warn and
             so may others. A check that warns is to pass.
         """
-        if found.status == "pass" or (found.status == "warn" and not (self._patient or _is_advised(found))):
+        if found.status == "pass" or (
+            found.status == "warn" and not (self._patient or _is_sought(self._design, found))
+        ):
             return ()
         if (found.name, index) not in self._found:
             self._found[found.name, index] = self._sought(found, index)

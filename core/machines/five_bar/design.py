@@ -963,7 +963,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
     def check_transmission_angle(self) -> Check:
         """GL303: its last two links are folded where the pins are nearest to each other, else stretched."""
         place, links = self.min_transmission_angle_at, "coupler and follower" if self.is_path else "follower and output"
-        change = "shorten" if place == self.span_min_at else "lengthen"
+        folded = abs(place - self.span_min_at) <= abs(place - self.span_max_at)
+        change = "shorten" if folded else "lengthen"
         limit, at = self.spec.limits.transmission_angle, f"input angle {short(math.degrees(place))} deg"
         return transmission_check(self.min_transmission_angle, limit, f"{change} {links}", at=at)
 

@@ -195,6 +195,7 @@ class Machine(OfMembers):
     }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes", "servo")
+    repaired_where_they_warn = frozenset(("critical-speed",))
     at_once = 64
     requirements = Design.requirements | {"require"}
 

@@ -224,6 +224,7 @@ class MachineLoads(OfMembers, LoadsDesign):
     extra_tables = ("speed", "resonances", "speed_limits", "wind_up_course")
     links, pins, meshes = (), (), ()
     derived = frozenset(_QUANTITIES[len(TORQUE) :])
+    repaired_where_they_warn = frozenset(("critical-speed",))
     design: cached_property[Machine] = geometry(Machine)
 
     @property

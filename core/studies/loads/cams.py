@@ -104,6 +104,7 @@ class CamLoadsDesign(LoadsDesign):
     extra_tables: ClassVar[tuple[str, ...]] = (*LoadsDesign.extra_tables, "contact")
     rollers: ClassVar[tuple[str, ...]] = ("main", "return")
     derived = LoadsDesign.derived | _DERIVED
+    repaired_where_they_warn = frozenset(("roller-skid",))
     on_two_sides: ClassVar[bool] = False
     """Whether the cams take the force of a follower in either sense."""
     has_pair: ClassVar[bool] = False

@@ -111,3 +111,20 @@ def test_rollers_that_carry_are_those_that_push(friction: Coefficients | None) -
     found, sizes = settled(MECHANISM, {}, APPLIED, 0j, 1.0, friction)
     unknowns = found.rubbing.unknowns(sizes)
     assert unknowns[:, only] == pytest.approx(wanted[:, only], abs=1e-10 * np.abs(wanted[:, only]).max())
+
+
+def test_a_choice_that_comes_back_ends_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where either roller would have it the other way: of n pairs the search went on for 2^n choices."""
+    solved: list[Any] = []
+
+    def counted(*given: Any) -> Any:
+        solved.append(solution_of(*given))
+        return solved[-1]
+
+    def other_way(found: Any, _unknowns: Any) -> Any:
+        return {name: ~used if name == "left" else used for name, used in found.pulled.items()}
+
+    monkeypatch.setattr("gearlink.core.mechanism.friction._first_changed", other_way)
+    monkeypatch.setattr("gearlink.core.mechanism.friction.solution_of", counted)
+    assert settled(MECHANISM, {}, APPLIED, 0j, 1.0, SLIDING)[0] is solved[-1]
+    assert len(solved) == 2

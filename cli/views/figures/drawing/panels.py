@@ -84,8 +84,8 @@ def page(
     large : whether it is on A3; by default where A4 would squeeze it too much
     lying : the whole paper, on its long side
     """
-    larger = share > _SQUEEZED if large is None else large
-    papers = [(long, short) if lying else (short, long) for short, long in _PAPERS[larger:]]
+    on_a3 = share > _SQUEEZED if large is None else large
+    papers = [(long, short) if lying else (short, long) for short, long in _PAPERS[1 if on_a3 else 0 :]]
     width, most = next((paper for paper in papers if paper[1] >= least * _A4[1]), papers[-1])
     height = max(most if lying else min(share * _A4[1], most), least * _A4[1])
     letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
