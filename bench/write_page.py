@@ -70,14 +70,14 @@ _REASONS = """## Where a goal is missed, and why
   in mathematical type and the blocking contour, `swing --plot` eight panels; `press --plot` takes 1.36
   to 1.44 from run to run. A report computes and draws its commands in as many processes as there are processors. An
   animation with real teeth takes some 5 ms a frame for polygons, colours and encoding, in as many processes.
-* **All examples.** The folder contains searches, studies and loads of one or two seconds each (the function of a
-  five-bar, a press with joint forces, a study of gripper cams). A folder of complete designs takes milliseconds each.
+* **All examples.** The folder contains searches, studies and loads of a tenth to a whole second each (the function of a
+  five-bar, a machine with loads, a study of motion laws). A folder of complete designs takes milliseconds each.
   A process of `check` takes the files of one kind together, since it builds the models of a kind once. Of `check` a
   third are imports and models of 25 kinds, a third the forces of six machines, a fifth four five-bars (170 linear
   programs of 0.3 ms, descents from 300 and 1500 starts). A round of a search under loads makes some hundred numpy calls
   and takes 1.5 to 4 ms, for two places as for two hundred; an extreme at a jump takes ten rounds and more.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms (libyaml and pydantic-core are compiled). Results
-  and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) or 1.6 ms (synthesis with meshes, dwell and extremes): some
+  and checks take 0.2 ms (slider-crank), 0.4 ms (gear pair) or 0.6 ms (synthesis with meshes, dwell and extremes): some
   forty quantities and checks of a command, 10 to 20 us of Python each. A second process is used from 0.15 s of work on,
   after four files where these tell that the rest takes as long. Two processes are 1.5 to 1.7 times as fast as one, and
   no faster on a busy machine: forking, sending results back and shared caches take the rest.

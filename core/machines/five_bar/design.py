@@ -964,9 +964,11 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         """GL303: its last two links are folded where the pins are nearest to each other, else stretched."""
         place, links = self.min_transmission_angle_at, "coupler and follower" if self.is_path else "follower and output"
         folded = abs(place - self.span_min_at) <= abs(place - self.span_max_at)
-        change = "shorten" if folded else "lengthen"
+        change = f"{'shorten' if folded else 'lengthen'} {links}"
+        if self._fits:
+            change = "start from other links, or take other gears: the links are found for the target"
         limit, at = self.spec.limits.transmission_angle, f"input angle {short(math.degrees(place))} deg"
-        return transmission_check(self.min_transmission_angle, limit, f"{change} {links}", at=at)
+        return transmission_check(self.min_transmission_angle, limit, change, at=at)
 
 
 def _closes(design: GearedFiveBar) -> bool:

@@ -227,6 +227,12 @@ class MachineLoads(OfMembers, LoadsDesign):
     repaired_where_they_warn = frozenset(("critical-speed",))
     design: cached_property[Machine] = geometry(Machine)
 
+    def varied(self, spec: Any) -> MachineLoads:
+        """The loads of another file, with the members, and their loads, that are as they were."""
+        made = type(self)(spec)
+        made.design = self.design.varied(spec)
+        return made
+
     @property
     def members(self) -> Any:
         """Those of the design."""

@@ -380,3 +380,9 @@ def test_links_that_fold_are_to_be_shortened_and_stretched_ones_lengthened(
     (found,) = of(length).check("transmission-angle")
     assert (found.status, found.advice) == ("fail", f"{change} coupler and follower")
     assert of(factor * length).min_transmission_angle > of(length).min_transmission_angle
+
+
+@pytest.mark.parametrize("name", ["five_bar_points", "five_bar_positions"])
+def test_links_that_were_found_are_not_to_be_changed(name: str) -> None:
+    (found,) = factory.design(name).check("transmission-angle")
+    assert found.advice.startswith("start from other links")
