@@ -69,7 +69,7 @@ def folders(quick: bool) -> Family:
         "none",
         "the check of one of them, candy_feed.yaml",
         measure(methods, reference, 1, 1 if quick else 3),
-        ("some of the designs are searches and studies of a second or two each",),
+        ("some of the designs are searches and studies of a tenth to a whole second each",),
     )
 
 

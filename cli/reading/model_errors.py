@@ -425,7 +425,7 @@ class _Wording:
             return hint(meaning, key, value, parent, self.loaded.data)
         if translation := self._translation(key, allowed):
             term, names = translation
-            return f"{key} is the {term}: key {' or '.join(f'`{name}`' for name in names)}"
+            return f"{key} is the {term}: write {' or '.join(f'`{name}`' for name in names)}"
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain, by_letters = _spelled(key), {name.lower(): name for name in allowed}  # A_radius beside W_radius

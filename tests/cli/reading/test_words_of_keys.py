@@ -92,10 +92,10 @@ def test_a_word_names_the_key_of_its_kind(kind: str, meaning: Meaning) -> None:
          "dwell_angle is the cylinder angle of a dwell here: write `near_dwell: 60` or `far_dwell: 60` in `phases`"),
         ("crank-rocker", "", "time_ratio", "1,2",
          "time_ratio is the time ratio of the strokes here: write `quick_return_ratio: ...` in `swing`"),
-        ("gear-pair", "", "Zähnezahl", [20, 40], "Zähnezahl is the number of teeth: key `teeth`"),
-        ("gear-pair", "", "模数", 3, "模数 is the module: key `module`"),
-        ("crank-rocker", "", "Schwinge", 60, "Schwinge is the rocker: key `links.rocker`"),
-        ("crank-rocker", "swing", "Gestell", 100, "Gestell is the frame: key `frame`"),
+        ("gear-pair", "", "Zähnezahl", [20, 40], "Zähnezahl is the number of teeth: write `teeth`"),
+        ("gear-pair", "", "模数", 3, "模数 is the module: write `module`"),
+        ("crank-rocker", "", "Schwinge", 60, "Schwinge is the rocker: write `links.rocker`"),
+        ("crank-rocker", "swing", "Gestell", 100, "Gestell is the frame: write `frame`"),
     ],
 )  # fmt: skip
 def test_the_help_has_the_value_of_the_file(kind: str, section: str, word: str, value: Any, help: str) -> None:
