@@ -35,9 +35,11 @@ from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+    from gearlink.core.mechanism.dynamics import Force, Torque
     from gearlink.core.parts.cams.contour import Contour
     from gearlink.core.parts.cams.flat_cam import FlatCam
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
+    from gearlink.core.studies.loads.spec import CamLoads
 
 
 _QUANTITIES = (
@@ -599,22 +601,41 @@ class Closing:
         return 0.0 if self.spec.spring is None else self.spec.spring.rate
 
     def outside(self, phi: Reals) -> Reals:
-        """What acts against the spring: -F_u - m g.u of the section `loads` [N, or N m]."""
-        section = self.spec.loads
+        """What acts against the spring: -F_u - m g.u of the section `loads`, without friction [N, or N m]."""
+        section, found = self.spec.loads, np.zeros_like(phi)
         if section is None:
-            return np.zeros_like(phi)
-        from gearlink.core.studies.loads.sources import values
-
-        found = np.zeros_like(phi)
+            return found
         if not self.spec.oscillates:
             gravity = complex(*section.gravity)
             found = found - self.inertia / MILLIMETER * (gravity * self.cams.direction.conjugate()).real
-        for load in section.forces:
-            value = load.torque if self.spec.oscillates else load.force
-            if load.on == "follower" and value is not None and not isinstance(value, list):
-                sense = -self.follower.side if self.spec.oscillates else 1
-                found = found - sense * values(value, phi)
+        if not section.forces and not section.springs:
+            return found
+        for act in self._applied(section, phi):
+            if act.on == "follower":
+                found = found - self._along(act)
         return found
+
+    def _applied(self, section: CamLoads, phi: Reals) -> list[Force | Torque]:
+        from gearlink.core.machines.disc_cam.mechanism import follower_link
+        from gearlink.core.mechanism.links import Link, Mechanism
+        from gearlink.core.mechanism.rates import fixed, steady
+        from gearlink.core.studies.loads.sources import Sources
+
+        links = {"cam": Link(fixed(0j, phi), steady(phi, float(self.spec.cam.sense)))}
+        links["follower"] = follower_link(self.cams, phi)
+        travel = {} if self.spec.oscillates else {"follower": self.cams.direction}
+        return Sources(section, tuple(links), tuple(travel)).at(Mechanism(links, (), "cam", travel=travel), phi, 1.0)
+
+    def _along(self, act: Force | Torque) -> Reals:
+        """What acts on the follower, along the lift [N, or N m]."""
+        from gearlink.core.mechanism.dynamics import Torque
+        from gearlink.core.mechanism.rates import cross, dot
+
+        if not self.spec.oscillates:
+            assert not isinstance(act, Torque), "a slide takes no torque"
+            return dot(self.cams.direction, act.force)
+        turning = act.torque if isinstance(act, Torque) else cross(act.at.value - self.cams.pivot, act.force)
+        return np.asarray(-self.follower.side * MILLIMETER * turning, dtype=np.float64)
 
     @cached_property
     def preload(self) -> float | None:
@@ -697,9 +718,12 @@ class Closing:
 
     @cached_property
     def face_width(self) -> float | None:
-        """Width that keeps the allowed contact pressure [mm], b = max(N/R) E*/(pi p^2); None without one."""
+        """Width that keeps the allowed contact pressure [mm], b = max(N/R) E*/(pi p^2); None without one.
+
+        Friction changes N: with it the loads alone know the width.
+        """
         section = self.spec.loads
-        material = None if section is None else section.material
+        material = None if section is None or section.friction is not None else section.material
         if material is None or material.allowed_pressure is None or self.spec.closure != "spring":
             return None
         from gearlink.core.studies.loads.contact import plane_modulus
@@ -787,9 +811,12 @@ def _found(designs: Sequence[DiscCamDesign], spec: DiscCamSpec, names: Sequence[
 
 
 def found_forces(many: DiscCamDesign, designs: Sequence[DiscCamDesign]) -> None:
-    """Preload and lift-off of a spring."""
-    spring = many.spec.spring
-    if spring is None:
+    """Preload and lift-off of a spring; where forces act at points, each design finds its own."""
+    spring, section = many.spec.spring, many.spec.loads
+    at_points = section is not None and (
+        section.springs or any(isinstance(load.force, list) for load in section.forces)
+    )
+    if spring is None or at_points:
         return
     closings = [design.closing for design in designs]
     keep(many.closing, inertia=column([one.inertia for one in closings]))

@@ -12,10 +12,12 @@ from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign
-from gearlink.core.mechanism.joints import NEWTON_METER
+from gearlink.core.mechanism.friction import relative
+from gearlink.core.mechanism.joints import NEWTON_METER, Contact
+from gearlink.core.mechanism.rates import cross
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign, contact_table
-from gearlink.core.studies.loads.contact import positive_drive, roller_on
+from gearlink.core.studies.loads.contact import plane_modulus, positive_drive, roller_on
 from gearlink.core.studies.loads.design import Wanted, loads_outline
 
 if TYPE_CHECKING:
@@ -211,13 +213,32 @@ class FollowerCamLoads(_Loads):
         return max(high * (1.0 - share), -low * share, 0.0)
 
     def cam_torque(self, phi: Reals) -> Reals:
-        """Torque that drives the cam about its axis, counter-clockwise [N m]: eps T s'."""
-        cams = self.design.cams
-        return cams.sense * self.closing.force(phi) * cams.motion.evaluate(phi, 1)[1] * self._lever
+        """Torque that drives the cam about its axis against the contact and its friction, counter-clockwise [N m]."""
+        found = self.machine.reactions(phi)
+        contact = next(each for each in found.mechanism.connections if isinstance(each, Contact))
+        force = found.unknowns[contact.name][0]
+        push: Points = np.asarray(force * contact.normal)
+        share = 0.0 if self.friction is None else self.friction.of(contact)
+        if share:
+            sliding = np.sign(relative(found.mechanism, contact))
+            push = push - share * np.maximum(force, 0.0) * sliding * 1j * contact.normal
+        return cross(contact.at, push) / NEWTON_METER
 
-    @property
-    def _lever(self) -> float:
-        return 1.0 if self.spec.oscillates else 1e-3
+    @cached_property
+    def face_width_needed(self) -> float | None:
+        """Width that keeps the allowed contact pressure [mm], b = max(N/R) E*/(pi p^2); None without one."""
+        material = self.section.material
+        if material is None or material.allowed_pressure is None or self.on_two_sides or self.spec.is_edge:
+            return None
+        if self._is_pressed_on_undercut("main"):
+            return None
+
+        def narrow(phi: Reals) -> Reals:
+            pressed = np.maximum(self.contact_force("main", phi), 0.0)
+            return np.asarray(pressed / self.roller_on_cam("main", phi).relative_radius)
+
+        modulus = plane_modulus(material.modulus, material.poisson)
+        return float(self.extreme(narrow, True).value * modulus / (math.pi * material.allowed_pressure**2))
 
     @property
     def lacking_spring(self) -> tuple[str, float] | None:  # type: ignore[override]
@@ -238,7 +259,6 @@ class FollowerCamLoads(_Loads):
 
     spring_preload: float | None = placed("closing.preload")
     lift_off_speed: float | None = placed("closing.lift_off_speed")
-    face_width_needed: float | None = placed("closing.face_width")
 
     @cached_property
     def traction_needed(self) -> list[float | None] | None:

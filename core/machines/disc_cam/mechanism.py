@@ -33,7 +33,7 @@ def motion(design: DiscCamDesign) -> Motion:
 
     def make(phi: Reals, order: int, side: int) -> Mechanism:
         axis = fixed(0j, phi, order=order)
-        follower = _rocker(cams, phi, order, side) if design.spec.oscillates else _slide(cams, phi, order, side)
+        follower = follower_link(cams, phi, order, side)
         links = {"cam": Link(axis, steady(phi, sense, order=order)), "follower": follower}
 
         def joints() -> list[Connection]:
@@ -63,6 +63,11 @@ def lift(design: DiscCamDesign) -> Course:
         return turned("follower", sense=sense).less(sense * start)
     start = cams.place.radius if design.spec.is_flat else cams.start_height
     return coordinate("follower", along=cams.direction).less(start)
+
+
+def follower_link(cams: FollowerCams, phi: Reals, order: int = 2, side: int = 1) -> Link:
+    """The follower at cam angles [rad]."""
+    return (_rocker if cams.spec.oscillates else _slide)(cams, phi, order, side)
 
 
 def _slide(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:

@@ -72,10 +72,43 @@ def test_the_follower_leaves_its_cam_at_the_speed_of_lift_off() -> None:
     assert loads(speed=speed).raw("contact_force_min") == pytest.approx(0.0, abs=1e-8)
 
 
+ROCKER = {"type": "oscillating-roller", "roller_radius": 10, "arm": 90, "center_distance": 120, "inertia": 0.02}
+STRAIN = {"between": ["frame", "follower"], "points": [[30, 190], [12, 5]], "rate": 0.4, "free_length": 60}
+
+
+@pytest.mark.parametrize("rocks", [False, True])
+def test_what_acts_at_points_and_what_resists_count_at_the_speed_of_lift_off(rocks: bool) -> None:
+    acting = [{"on": "follower", "resistance": 1.3}, {"on": "follower", "force": [9, -7], "point": [14, 6]}]
+    given: dict[str, Any] = {"loads": {"forces": acting, "springs": [STRAIN], "gravity": [0, -9.81]}}
+    if rocks:
+        given |= {"follower": ROCKER, "cam": {"prime_radius": 60}, "spring": {"preload": 14, "rate": 9}}
+    speed = loads(**given).lift_off_speed
+    assert loads(**given, speed=speed).raw("contact_force_min") == pytest.approx(0.0, abs=1e-7)
+    given["loads"]["forces"] = given["loads"]["springs"] = []
+    assert loads(**given).lift_off_speed != pytest.approx(speed, rel=0.01)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("follower", [SLIDE["follower"], FLAT, ROCKER], ids=["roller", "flat", "rocker"])
+def test_friction_counts_in_the_torque_on_the_cam_and_the_width(sense: int, follower: dict[str, Any]) -> None:
+    """The torque is that of the shaft less what the pin O takes, mu r |O|; the pressure falls with the root of b."""
+    friction = {"pins": 0.1, "pin_radius": 9, "guides": 0.14} | ({"contacts": 0.1} if follower is FLAT else {})
+    if follower is ROCKER:
+        del friction["guides"]
+    section = {"roller": {"width": 15}, "material": {"allowed_pressure": 300}, "friction": friction}
+    body = {"base_radius": 40} if follower is FLAT else {"prime_radius": 60}
+    given = {"follower": follower, "cam": {**body, "sense": sense}, "spring": {"preload": 90, "rate": 15}}
+    design = loads(**given, loads=section)
+    borne = abs(design.machine.reactions(PHI).force("O"))
+    assert design.cam_torque(PHI) == pytest.approx(sense * (design.machine.torque(PHI) - 9e-4 * borne), abs=1e-9)
+    wide = loads(**given, loads=section | {"roller": {"width": design.face_width_needed}})
+    assert wide.raw("hertz_pressure_max") == pytest.approx(300.0, rel=1e-9)
+
+
 def test_the_preload_of_the_fix_is_in_the_unit_of_the_follower() -> None:
     rocks = {"type": "oscillating-roller", "roller_radius": 10, "arm": 90, "center_distance": 120, "inertia": 0.2}
     for follower, unit in ((SLIDE["follower"], "N"), (rocks, "N m")):
-        keys = {"follower": follower, "spring": {"preload": 1}, "cam": {"prime_radius": 60}}
+        keys = {"follower": follower, "spring": {"preload": 1}, "cam": {"prime_radius": 60}, "loads": None}
         design = factory.design(dict(SLIDE, **keys))
         (check,) = [each for each in design.report("cam").checks if each.code == "GL406"]
         assert check.status == "fail"
