@@ -517,8 +517,8 @@ class GenevaDrive(RealSpeed, Design):
 
     @property
     def motion_share(self) -> float:
-        """Share of a revolution of the crank in which one pin moves the wheel: 1/2 - s/n."""
-        return self.motion_angle / TURN
+        """Share of the time in which the wheel moves, p (1/2 - s/n) with p pins."""
+        return self.spec.pins * self.motion_angle / TURN
 
     @property
     def locking_angle(self) -> float:

@@ -101,6 +101,14 @@ def test_wheel_of_several_pins_runs_on() -> None:
     assert found.contact_force_max is None
 
 
+@pytest.mark.parametrize(("slots", "pins"), [(6, 1), (5, 2), (6, 2)])
+def test_the_wheel_moves_in_its_share_of_the_time(slots: int, pins: int) -> None:
+    found = design(GIVEN, slots=slots, pins=pins, pin_radius=3.0, locking_radius=None, wheel=None)
+    speed = np.abs(found.table("motion", samples=3600)["speed_ratio"])
+    assert np.mean(speed > 1e-9) == pytest.approx(found.motion_share, abs=2 * pins / 3600)
+    assert found.motion_share * 360.0 == pytest.approx(360.0 - pins * math.degrees(found.locking_angle), rel=1e-12)
+
+
 @pytest.mark.parametrize(("kind", "pins"), [("external", 1), ("external", 2), ("internal", 1)])
 def test_loads_know_where_the_wheel_starts_and_stops(kind: str, pins: int) -> None:
     """By the angle of the pin at the mouth of its slot, cos = a_crank/a, about each pin."""
