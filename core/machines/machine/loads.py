@@ -20,7 +20,7 @@ from gearlink.core.machines.machine.codes import NEAR
 from gearlink.core.machines.machine.design import Machine, OfMembers
 from gearlink.core.machines.machine.series import MOST_TURNS, OnShaft
 from gearlink.core.machines.machine.speeds import own_speeds
-from gearlink.core.mechanism.dynamics import Reduced, System
+from gearlink.core.mechanism.dynamics import Reduced
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.motion import TURN, Motion
 from gearlink.core.numerics.arrays import Reals, turn_degrees
@@ -150,22 +150,16 @@ class Felt:
         """
         angle = np.linspace(0.0, TURN * self.turns, _SAMPLES * self.turns, endpoint=False)
         u, first, second = self.input(angle)
-        machine = self.machine
         with in_section(f"members.{self.place.name}.design"):
-            mechanism, forces = machine.at(u), machine.applied(u)
-        pressed = [each.name for each in mechanism.connections if isinstance(each, Contact) and each.back is None]
-        if not pressed:
-            return None
-        system = System(mechanism, machine.masses)
-        still = system.right_side(forces, machine.gravity, 0.0, 0.0)
-        moving = system.right_side((), 0j, first, second)
-        rest, swung = system.solve([still, moving])
+            rest, swung = self.machine.parted(u, first, second)
         found = []
-        for name in pressed:
-            k = system.place(name)
-            lost = swung[k] < -1e-12 * np.abs(swung[k]).max()
+        for each in rest.mechanism.connections:
+            if not isinstance(each, Contact) or each.back is not None:
+                continue
+            still, moving = (part.unknowns[each.name][0] for part in (rest, swung))
+            lost = moving < -1e-12 * np.abs(moving).max()
             if lost.any():
-                found.append(float(np.sqrt(np.maximum(rest[k][lost], 0.0) / -swung[k][lost]).min()))
+                found.append(float(np.sqrt(np.maximum(still[lost], 0.0) / -moving[lost]).min()))
         return min(found) if found else None
 
 

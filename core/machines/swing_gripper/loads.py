@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -126,10 +127,27 @@ class GripperLoads(CamLoadsDesign):
         found: Reals = self.machine.reactions(phi).unknowns[name][0]
         return found
 
-    @property
+    @cached_property
     def lift_off_speed(self) -> float | None:
-        """Speed at which a roller leaves its cam [sheets/h]; None without a spring."""
-        return None if self.spec.spring is None else self.design.lift_off_speed
+        """Speed at which a roller leaves its cam, by all that acts but friction [sheets/h]; None without a spring, and
+        where nothing ever lifts one."""
+        if self.spec.spring is None:
+            return None
+        if not self.machine.sources.any and not self.machine.gravity:
+            return self.design.lift_off_speed
+        if min(self.extreme(partial(self._pressed_at_rest, name), False).value for name in self.own_rollers) <= 0.0:
+            return 0.0
+        worst = max(self.extreme(partial(self._unloading, name), True).value for name in self.own_rollers)
+        return None if worst <= 0.0 else math.sqrt(1.0 / worst) / self.speed_unit
+
+    def _pressed_at_rest(self, name: str, phi: Reals) -> Reals:
+        """Force of a roller at rest [N]."""
+        return np.asarray(self.machine.parted(phi)[0].unknowns[name][0])
+
+    def _unloading(self, name: str, phi: Reals) -> Reals:
+        """1/W^2 of the speed at which the roller is without force [s^2]."""
+        rest, swung = (part.unknowns[name][0] for part in self.machine.parted(phi))
+        return np.asarray(-swung / rest)
 
     @property
     def lacking_spring(self) -> tuple[str, float] | None:  # type: ignore[override]

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.results import keep, kept
-from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
+from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Reduced, System, Torque, reduced
 from gearlink.core.mechanism.friction import LOCKED, LOCKS, Coefficients, SelfLocking, Solution, settled, with_friction
 from gearlink.core.mechanism.joints import Coupling, Pin
 from gearlink.core.mechanism.links import Mechanism
@@ -154,6 +154,22 @@ class Machine:
         if phi.size > _BLOCK:  # for the memory's sake
             return self._by_blocks(phi)
         return with_friction(*self._settled(phi), self.friction, self.speed)
+
+    def parted(
+        self, phi: Reals, first: Reals | float = 1.0, second: Reals | float = 0.0
+    ) -> tuple[Reactions, Reactions]:
+        """Forces at rest, and those of the masses per square of a speed, both without friction: R = R_0 + W^2 R_1.
+
+        Parameters
+            phi : (N,) array [rad] - input angles
+            first, second : rates of the input by the angle whose speed is W
+        Source
+            own derivation: the equations of Newton and Euler are linear in W^2
+        """
+        system = System(self.at(phi), self.masses)
+        still = system.right_side(self.applied(phi), self.gravity, 0.0, 0.0)
+        rest, swung = system.solve([still, system.right_side((), 0j, first, second)])
+        return system.reactions(rest), system.reactions(swung)
 
     def _settled(self, phi: Reals) -> tuple[Solution, Reals]:
         """The equations solved there; the last answer is kept, since forces and the nearness of locking share it."""

@@ -157,3 +157,17 @@ def test_positive_drive_opens_where_the_preload_ends() -> None:
     loose = positive_drive(force, 0.9 * needed, stiffness)
     assert min(loose[0].min(), loose[1].min()) == 0.0
     assert loose[0] - loose[1] == pytest.approx(force, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "section",
+    [{"gravity": [0.0, -9.81]}, {"forces": [{"on": "output", "resistance": 30.0}]}, {}],
+    ids=["gravity", "resistance", "neither"],
+)
+def test_a_roller_of_the_gripper_is_without_force_at_the_speed_of_lift_off(section: dict[str, Any]) -> None:
+    """The speed out of forces at rest and of the masses, against the force at that speed; 1e-9 of the 4 kN at rest."""
+    given = {"roller": {"width": 30}, **section}
+    speed = factory.design("loaded_gripper", command="loads", loads=given).lift_off_speed
+    there = factory.design("loaded_gripper", command="loads", loads=given, speed=speed)
+    assert min(there.contact_force_min) == pytest.approx(0.0, abs=4e-6)
+    assert there.lift_off_speed == pytest.approx(speed, rel=1e-9)
