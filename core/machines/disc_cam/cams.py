@@ -401,10 +401,26 @@ class FollowerCams:
         if roller is None:
             return None
         if self.spec.oscillates:
+            self._require_across(roller)
             path = self._rocking_path(self.place, roller.arm, math.radians(roller.angle or 0.0))
         else:
             path = self._sliding_path(self.roller_distance)
         return DiscCam("return cam", path, self.sense, roller.radius, self.motion.joints, "return_roller")
+
+    def _require_across(self, roller: ReturnRoller) -> None:
+        """Refuse a return roller of a rocker that its cam pushes the same way as the main one: nothing holds it then.
+
+        A cam pushes a roller away from the line of centres, so both stand on different sides of it.
+        """
+        place, (low, high) = self.place, self.lifts
+        side = self.follower.side
+        least, most = np.max(np.degrees(place.start + high)), np.min(np.degrees(place.start + low)) + 180.0
+        angle = (side * (roller.angle or 0.0)) % 360.0
+        if not least < angle < most:
+            message = f"return_roller.angle: {short(roller.angle or 0.0)} deg: both cams push the rocker the same way"
+            bounds = sorted((side * least, side * most))
+            fix = f"choose one from {within(*bounds, 'deg')}, across the line of centres"
+            raise NoSolution(message, key="return_roller.angle", fix=fix)
 
     @cached_property
     def roller_distance(self) -> float:

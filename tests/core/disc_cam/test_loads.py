@@ -162,6 +162,24 @@ def test_a_conjugate_pair_carries_either_sense() -> None:
     assert [len(design.raw(name)) for name in ("contact_force_max", "hertz_pressure_max")] == [2, 2]
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_both_rollers_of_a_conjugate_pair_on_one_side_are_refused(side: int) -> None:
+    """Along the arc of its arm each roller must leave the cam axis as the other comes nearer."""
+    given = {"closure": "conjugate", "spring": None, "cam": {"prime_radius": 60}, "loads": {"roller": {"width": 15}}}
+    pair = {"radius": 10, "arm": 90}
+    follower = {**ROCKER, "side": side}
+    for angle in (-40, 20, 70, 150):
+        design = loads(follower=follower, return_roller={**pair, "angle": side * angle}, **given)
+        psi = math.pi - side * (math.acos((90**2 + 120**2 - 60**2) / (2 * 90 * 120)) + np.radians([0.0, 10.0]))
+        arms = np.exp(1j * np.array([psi, psi + math.radians(side * angle)]))
+        apart = np.sign(((120 + 90 * arms).conj() * 1j * arms).real)
+        if np.all(apart[0] == -apart[1]):
+            assert min(design.contact_force_max) > 0.0
+        else:
+            with pytest.raises(NoSolution, match="push the rocker the same way"):
+                _ = design.contact_force_max
+
+
 def test_the_preload_of_a_conjugate_pair_is_parted_by_the_stiffness() -> None:
     """With the preload that is needed one roller is about to open and none does; each takes its share of the force."""
     keys: dict[str, Any] = {"closure": "conjugate", "return_roller": {"radius": 10}, "spring": None}
