@@ -419,7 +419,7 @@ class FollowerCams:
         if not least < angle < most:
             message = f"return_roller.angle: {short(roller.angle or 0.0)} deg: both cams push the rocker the same way"
             bounds = sorted((side * least, side * most))
-            fix = f"choose one from {within(*bounds, 'deg')}, across the line of centres"
+            fix = f"choose one from {within(bounds[0], bounds[1], 'deg')}, across the line of centres"
             raise NoSolution(message, key="return_roller.angle", fix=fix)
 
     @cached_property
