@@ -8,7 +8,8 @@ the keys of the file which it answers:
 The first key that the file has counts. It is `required`; behind `>` the value has to be at least, behind `<` at most
 that of the key, behind `?` the key only asks for it. A key that begins with a point is an attribute of the design, in
 the quantity's unit. A name behind `?` is shown only where the file asks for it. A name with `*` is every quantity like
-it, behind `^` the largest of them alone, whatever its sign: `^speed_ratio_m*[xn]` is the faster of both extremes.
+it, behind `^` the largest of them alone, whatever its sign. Of a maximum the minimum is shown instead where it is the
+greater of both extremes, unless the class names it as well.
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ SHARED: dict[str, tuple[Key, ...]] = {
         "*.span_measurement",
     ),
     "loads": (
+        "members_without_loads",
         "input_torque_max",
         "input_torque_min",
         "input_torque_rms",
@@ -93,6 +95,7 @@ TITLES = {
     "yield_low": "yield, 95 % at least",
     "yield_high": "yield, 95 % at most",
     "pin_diameter": "diameter of measuring pins",
+    "members_without_loads": "members without loads",
     "contact_force": "contact force at the design speed",
 }
 """What a key result is called where its name would mislead."""
@@ -100,7 +103,7 @@ TITLES = {
 
 _REGISTER = "register, "
 _AS_LARGE = 1.0 - 1e-9
-"""Of maximum and minimum that differ by rounding the first is shown."""
+"""Of magnitudes that differ by rounding the first is shown."""
 
 
 class KeyResult(NamedTuple):
@@ -137,13 +140,13 @@ def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tu
     """
     shown = {q.name: q for q in quantities if q.value != []}
     found: dict[str, KeyResult] = {}
-    for key in design.keys.get(command) or SHARED.get(command, ()):
-        name, *paths = (key,) if isinstance(key, str) else key
-        asked = _asked(design, paths)
-        if name.startswith("?") and asked is None:
-            continue
+    keys = [(key,) if isinstance(key, str) else key for key in design.keys.get(command) or SHARED.get(command, ())]
+    answers = [(name, _asked(design, paths)) for name, *paths in keys]
+    named = [(name.lstrip("?"), asked) for name, asked in answers if asked or not name.startswith("?")]
+    for name, asked in named:
         value, how = asked or (None, "")
-        for quantity in _matching(name.lstrip("?"), shown):
+        for each in _matching(name, shown):
+            quantity = each if asked else _greater_extreme(each, shown, [other for other, _ in named])
             found.setdefault(quantity.name, KeyResult(quantity, value, how, design.titles.get(quantity.name, "")))
     for quantity in shown.values():
         if len(found) >= FEWEST:
@@ -159,8 +162,21 @@ def _matching(name: str, shown: dict[str, Quantity]) -> Iterable[Quantity]:
     like = [q for each, q in shown.items() if fnmatchcase(each, name.removeprefix("^"))]
     if not (name.startswith("^") and like):
         return like
-    bound = _AS_LARGE * max(abs(_size(q)) for q in like)
-    return (next(q for q in like if abs(_size(q)) >= bound),)
+    return (_largest(like),)
+
+
+def _greater_extreme(quantity: Quantity, shown: dict[str, Quantity], named: Sequence[str]) -> Quantity:
+    """The quantity, or of a maximum the minimum that is greater, if the key results do not name it anyhow."""
+    least = shown.get(f"{quantity.name.removesuffix('_max')}_min") if quantity.name.endswith("_max") else None
+    if least is None or any(fnmatchcase(least.name, name) for name in named):
+        return quantity
+    return _largest((quantity, least))
+
+
+def _largest(quantities: Sequence[Quantity]) -> Quantity:
+    """The one of the greatest magnitude; the first of those that differ by rounding."""
+    bound = _AS_LARGE * max(abs(_size(q)) for q in quantities)
+    return next(q for q in quantities if abs(_size(q)) >= bound)
 
 
 def _size(quantity: Quantity) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 from factory import DESIGNS, design, each_kind
 from pydantic import BaseModel
 
+import gearlink
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.options import Options
 from gearlink.core.base.design import Design
@@ -123,6 +125,24 @@ def test_the_two_values_of_a_register_are_named() -> None:
     """One for each sense of the torque: without that two equal numbers stand side by side."""
     for value, title in (([0.1, 0.2], "worst case, torque + and -"), (0.2, "register, worst case")):
         assert KeyResult(Quantity("worst", value, "mm", "", "")).title == title
+
+
+@pytest.mark.parametrize("kind", ["disc-cam", "cylindrical-cam"])
+def test_of_a_return_that_is_faster_the_minimum_is_shown(kind: str) -> None:
+    """A rise of 120 deg and a return of 60 deg by one law: twice the speed, four times the acceleration, downwards."""
+    motion = [{"to": 120, "lift": 9, "law": "cycloidal"}, {"to": 180, "lift": 0, "law": "cycloidal"}, {"to": 360}]
+    cam = {"prime_radius": 60} if kind == "disc-cam" else {"radius": 60, "depth": 8}
+    follower = {"type": "translating-roller", "roller_radius": 8}
+    drive = gearlink.design(kind=kind, speed=100, motion=motion, follower=follower, cam=cam)
+    names = [each.quantity.name for each in drive.report("cam").key]
+    assert {"follower_velocity_min", "velocity_min"} < set(names)
+    assert {"follower_velocity_max", "velocity_max"}.isdisjoint(names)
+    assert math.isclose(drive.quantity("velocity_min").value, -2 * drive.quantity("velocity_max").value, rel_tol=1e-12)
+
+
+def test_a_class_that_names_both_extremes_shows_both() -> None:
+    names = [each.quantity.name for each in design("loaded_cam", command="loads").report("loads").key]
+    assert names[:2] == ["input_torque_max", "input_torque_min"]
 
 
 def test_the_faster_extreme_is_shown_whatever_its_sign() -> None:

@@ -184,9 +184,9 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
             "extreme_crank_angles",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "output_speed_max",
-            "^output_acceleration_m*[xn]",
-            "^speed_ratio_m*[xn]",
-            "^acceleration_ratio_m*[xn]",
+            "output_acceleration_max",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
             "contact_ratio",
         ),
     }

@@ -96,11 +96,11 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
             "mean_ratio",
             "speed_ratio_max",
             "speed_ratio_min",
-            "^output_acceleration_m*[xn]",
+            "output_acceleration_max",
             "feed_per_turn",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "linkage_kind",
-            "^acceleration_ratio_m*[xn]",
+            "acceleration_ratio_max",
         ),
     }
     outlines = {

@@ -72,10 +72,10 @@ class MomentaryDwellSynthesis(TwoGearFourBar):
             ("min_transmission_angle", ">limits.transmission_angle"),
             "back_step_angle",
             "mean_ratio",
-            "^speed_ratio_m*[xn]",
-            "^output_acceleration_m*[xn]",
+            "speed_ratio_max",
+            "output_acceleration_max",
             "feed_per_turn",
-            "^acceleration_ratio_m*[xn]",
+            "acceleration_ratio_max",
         ),
     )
     outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS, ("motion",)))
@@ -98,10 +98,10 @@ class BackStepSynthesis(TwoGearFourBar):
             "frame_length",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "mean_ratio",
-            "^speed_ratio_m*[xn]",
-            "^output_acceleration_m*[xn]",
+            "speed_ratio_max",
+            "output_acceleration_max",
             "feed_per_turn",
-            "^acceleration_ratio_m*[xn]",
+            "acceleration_ratio_max",
         ),
     )
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
@@ -158,10 +158,10 @@ class DwellSynthesis(TwoGearFourBar):
             ("min_transmission_angle", ">limits.transmission_angle"),
             "back_step_angle",
             "mean_ratio",
-            "^speed_ratio_m*[xn]",
-            "^output_acceleration_m*[xn]",
+            "speed_ratio_max",
+            "output_acceleration_max",
             "feed_per_turn",
-            "^acceleration_ratio_m*[xn]",
+            "acceleration_ratio_max",
         ),
     )
     outlines = with_analysis(

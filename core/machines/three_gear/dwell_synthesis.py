@@ -323,10 +323,10 @@ class DwellSynthesis(ThreeGearFourBar):
             ("min_transmission_angle", ">limits.transmission_angle"),
             ("gear_gap", ">limits.gear_gap"),
             "back_step_angle",
-            "^output_acceleration_m*[xn]",
+            "output_acceleration_max",
             "feed_per_turn",
-            "^speed_ratio_m*[xn]",
-            "^acceleration_ratio_m*[xn]",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
         ),
     )
     outlines = with_analysis(

@@ -481,10 +481,10 @@ class BackStepSynthesis(ThreeGearFourBar):
             "frame_length",
             ("min_transmission_angle", ">limits.transmission_angle"),
             ("gear_gap", ">limits.gear_gap"),
-            "^output_acceleration_m*[xn]",
+            "output_acceleration_max",
             "feed_per_turn",
-            "^speed_ratio_m*[xn]",
-            "^acceleration_ratio_m*[xn]",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
         ),
     )
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("back-step-target", *CHECKS)))
@@ -569,7 +569,7 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
             "frame_length",
             ("min_transmission_angle", ">limits.transmission_angle"),
             ("gear_gap", ">limits.gear_gap"),
-            "^output_acceleration_m*[xn]",
+            "output_acceleration_max",
         ),
     )
     outlines = with_analysis("synth variable-speed", Outline(QUANTITIES, CHECKS))
@@ -710,9 +710,9 @@ class MomentaryDwellSynthesis(ThreeGearFourBar):
             ("min_transmission_angle", ">limits.transmission_angle"),
             ("gear_gap", "momentary.gap", ">limits.gear_gap"),
             "mean_ratio",
-            "^speed_ratio_m*[xn]",
-            "^output_acceleration_m*[xn]",
-            "^acceleration_ratio_m*[xn]",
+            "speed_ratio_max",
+            "output_acceleration_max",
+            "acceleration_ratio_max",
         ),
     )
     outlines = with_analysis("synth momentary-dwell", Outline((*QUANTITIES, *_STEPS, "dwell_pole_line_error"), CHECKS))
