@@ -30,6 +30,9 @@ def _f(text: str) -> Fraction:
 
 
 _REVS = dict.fromkeys(("1/min", "rev/min", "rpm", "r/min", "min^-1"), _f("1"))
+_COUNTED = ("sheets", "sheet", "prints", "impressions", "copies", "cycles", "strokes")
+_HOURLY = ("1/h", "/h", *(f"{each}/h" for each in _COUNTED), "iph", "sph")
+_MINUTELY = tuple(f"{each}/min" for each in _COUNTED)
 UNITS: dict[str, dict[str, Fraction]] = {
     "mm": {"mm": _f("1"), "um": _f("0.001"), "µm": _f("0.001"), "cm": _f("10"), "dm": _f("100"), "m": _f("1000")}
     | dict.fromkeys(("in", "inch", '"'), _INCH)
@@ -38,11 +41,9 @@ UNITS: dict[str, dict[str, Fraction]] = {
     | {"rad": _RADIAN, "mrad": _RADIAN / 1000, "arcmin": _f("1/60"), "'": _f("1/60"), "arcsec": _f("1/3600")},
     "1/min": _REVS
     | {"1/s": _f("60"), "Hz": _f("60"), "rad/s": 30 / _PI, "deg/s": _f("1/6")}
-    | dict.fromkeys(("sheets/h", "sheet/h", "1/h", "/h"), _f("1/60"))
-    | {"sheets/min": _f("1")},
-    "sheets/h": dict.fromkeys(("sheets/h", "sheet/h", "1/h", "/h"), _f("1"))
-    | {name: 60 * factor for name, factor in _REVS.items()}
-    | {"sheets/min": _f("60")},
+    | dict.fromkeys(_HOURLY, _f("1/60"))
+    | dict.fromkeys(_MINUTELY, _f("1")),
+    "sheets/h": dict.fromkeys(_HOURLY, _f("1")) | dict.fromkeys((*_REVS, *_MINUTELY), _f("60")),
     "N": {"N": _f("1"), "kN": _f("1000"), "lbf": _LBF, "kgf": _GRAVITY},
     "N m": {"Nm": _f("1"), "kNm": _f("1000"), "Nmm": _f("0.001"), "kgfm": _GRAVITY}
     | {"lbfin": _LBF * _INCH / 1000, "lbfft": _LBF * _FOOT / 1000},
