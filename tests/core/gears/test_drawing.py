@@ -27,6 +27,13 @@ def test_a_rack_has_the_lines_of_its_teeth_alone() -> None:
     assert lines["face width"] == (30.0, 30.0)
 
 
+@pytest.mark.parametrize("written", ["cd25", "25 cd", "cd 25", ["25cd", "cd25"]])
+def test_a_series_of_allowances_may_be_written_as_elsewhere(written: Any) -> None:
+    pair = GEAR | {"teeth": [20, 30], "profile_shift": [0.2, 0]}
+    other = design(pair | {"allowances": {"series": written}}, command="gear")
+    assert other.report("gear").quantities == design(pair, command="gear").report("gear").quantities
+
+
 def test_a_rack_has_its_own_lines_to_cut_and_measure_it_by() -> None:
     """The pin in a space of 45 deg flanks, moved to 20 deg: it touches both flanks, found by its distance from them."""
     made = design(GEAR | {"teeth": [20, "rack"], "profile_shift": [0.2, 0], "pin_diameter": [5.5, 5.0]}, command="gear")

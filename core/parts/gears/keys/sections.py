@@ -38,16 +38,20 @@ OneOrTwoTools = ToolSpec | Annotated[list[ToolSpec | None], Field(min_length=2, 
 
 Allowance = Annotated[float, unit("mm", ge=-100, le=100)]
 TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
-_SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
+_TOLERANCE, _ROW = "(2[1-9]|30)", "(ab|a|bc|b|cd|c|d|e|f|g|h)"
+_SERIES = f"^({_TOLERANCE} ?{_ROW}|{_ROW} ?{_TOLERANCE})$"
+"""Of DIN 3967, as 25cd on drawings, or cd25 in other programs."""
 
 
 def _a_series(name: str) -> str:
-    if not re.fullmatch(_SERIES, name):
+    found = re.fullmatch(_SERIES, name)
+    if not found:
         message = (
             f"DIN 3967 has no series {name}\ntake a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
         )
         raise refused(message, "", "GL108")
-    return name
+    _, tolerance, row, other_row, other_tolerance = found.groups()
+    return f"{tolerance or other_tolerance}{row or other_row}"
 
 
 Series = Annotated[str, AfterValidator(_a_series), Field(json_schema_extra={"pattern": _SERIES})]
