@@ -19,7 +19,7 @@ from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.torsion import torsional_stiffness
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import first_of, short
 from gearlink.core.mechanism.dual import Chain, Dual, Shift
 from gearlink.core.mechanism.joints import Contact, Flank, Pin, SharedContact, Toothed
 from gearlink.core.mechanism.links import Mechanism
@@ -79,8 +79,12 @@ class Moves:
             return (Shift(link, tuple(each.name for each in teeth if link in (each.first, each.second))),)
         if source.key in self.errors:
             return self.errors[source.key]
-        message = f"{source.key} does not move {self.words}"
-        raise NoSolution(message, key="tolerance.sources", fix="use it in a file without register, or omit it")
+        others = f"; sizes that count here: {first_of(list(self.errors), 8)}" if self.errors else ""
+        raise NoSolution(
+            f"{source.key} does not move {self.words}: it counts in tolerance alone",
+            key=f'tolerance.sources."{source.key}"',
+            fix=f"omit it where register is computed{others}",
+        )
 
     def is_vector(self, source: Scatter) -> bool:
         """Whether an error of it has any direction."""

@@ -100,8 +100,11 @@ def test_samples_of_the_chain_are_the_budget() -> None:
 
 
 def test_what_does_not_move_the_tip_is_refused() -> None:
-    with pytest.raises(NoSolution, match="does not move the tip"):
-        gripper({"arm.length": {"plus_minus": 0.01}}).report("register")
+    """At its own line, with the sizes that move it."""
+    with pytest.raises(NoSolution, match="does not move the tip") as refused:
+        gripper({"links.input": {"plus_minus": 0.01}, "arm.length": {"plus_minus": 0.01}}).report("register")
+    assert refused.value.key == 'tolerance.sources."arm.length"'
+    assert "links.input, links.coupler" in refused.value.fix
 
 
 @pytest.mark.parametrize("degrees", [60.0, 106.0, 200.0])
