@@ -233,9 +233,19 @@ class Timing:
         """
         found = [each for each in self.runs(wanted.of) if each.name == wanted.what]
         if wanted.number > len(found):
-            have = f"it has {len(found)}" if found else f"it has {', '.join(self._named_runs(wanted.of))}"
-            raise NoSolution(f"{wanted.of} has no {wanted.what}[{wanted.number}]: {have}")
+            have = str(len(found)) if found else ", ".join(self._named_runs(wanted.of))
+            message = f"{wanted.of} has no {wanted.what}[{wanted.number}]: it has {have}"
+            raise NoSolution(message, fix=self._way_to(wanted, len(found)))
         return found[wanted.number - 1]
+
+    def _way_to(self, wanted: Named, count: int) -> str:
+        """What helps to a run that the member does not have, of which it has so many others of this name."""
+        if count:
+            return f"name one from {wanted.what}[1] to {wanted.what}[{count}]"
+        member = wanted.of.partition(".")[0]
+        if wanted.what == "dwell" and "dwell_tolerance" in type(self.members[member].design.spec).model_fields:
+            return f"give members.{member}.design.dwell_tolerance: a dwell within a tolerance is a run"
+        return f"name {' or '.join(self._named_runs(wanted.of))}"
 
     def _named_runs(self, of: str) -> list[str]:
         return list(dict.fromkeys(each.name for each in self.runs(of)))

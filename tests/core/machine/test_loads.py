@@ -143,6 +143,15 @@ def test_members_at_another_speed_are_named_and_the_machines_speed_holds() -> No
     assert found.quantity("slow.input_torque_max").value == pytest.approx(float(want.max()), rel=1e-4)  # type: ignore[union-attr, arg-type]
 
 
+def test_members_that_add_nothing_are_among_the_first_results() -> None:
+    bare = cam(FEED, follower={"mass": None})
+    mixed = loads({"m": of(cam(FEED, **SPRUNG)), "light": of(bare), "other": of(bare)})
+    first = mixed.report("loads").key[0]
+    assert (first.title, first.quantity.value) == ("members without loads", ["light", "other"])
+    whole = loads({"m": of(cam(FEED, **SPRUNG))}).report("loads").key
+    assert whole[0].quantity.name == "input_torque_max"
+
+
 def test_findings_of_members_bear_their_names() -> None:
     found = loads({"m": of(cam(FEED, **SPRUNG))})
     checks = found.report("loads").checks

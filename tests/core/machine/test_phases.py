@@ -6,6 +6,7 @@ import functools
 import itertools
 import math
 import random
+import re
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
@@ -17,6 +18,7 @@ import pytest
 import yaml
 from machines import FEED, GRIPPER, cam, machine, of, wrapped
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.machine.timing import Tie, solve
 
@@ -235,3 +237,29 @@ def test_a_gap_beyond_every_dial_is_said_to_fail() -> None:
     members = {"feed": of(cam(FEED)), "gripper": of(cam(GRIPPER), phase="free")}
     found = machine(members, require=["feed.rise_start before gripper.rise_end by 2147483648"])
     assert [each.status for each in found.check("timing-relation")] == ["fail"]
+
+
+@pytest.mark.parametrize(
+    ("run", "fix"),
+    [
+        ("drive.dwell", "give members.drive.design.dwell_tolerance: a dwell within a tolerance is a run"),
+        ("drive.rise[3]", "name one from rise[1] to rise[1]"),
+        ("push.dwell", "name rise or return"),
+    ],
+)
+def test_a_run_that_a_member_does_not_have_leads_to_one(run: str, fix: str) -> None:
+    step = {"kind": "three-gear-four-bar", "gears": {"module": 1.5, "crank": 36, "idler": 40, "output": 36}}
+    members = {
+        "drive": of(step | {"links": {"crank": 20.5545884, "frame": 77.9455509}}),
+        "push": of({"kind": "slider-crank", "stroke": 20, "rod": 80}),
+        "hold": of(cam(FEED)),
+    }
+    with pytest.raises(NoSolution, match=rf"has no {re.escape(run.partition('.')[2])}") as refused:
+        _ = machine(members, require=[f"{run} within hold.dwell"]).least_margin
+    assert refused.value.fix == fix
+
+
+def test_the_tolerance_that_the_fix_names_makes_a_run() -> None:
+    step = {"kind": "three-gear-four-bar", "gears": {"module": 1.5, "crank": 36, "idler": 40, "output": 36}}
+    drive = of(step | {"links": {"crank": 20.5545884, "frame": 77.9455509}, "dwell_tolerance": 0.6})
+    assert machine({"drive": drive, "hold": of(cam(FEED))}, require=["drive.dwell within hold.dwell"]).least_margin
