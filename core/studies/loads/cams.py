@@ -36,7 +36,7 @@ _LEAST_SHARE = 0.1
 
 def no_width(allowed: float) -> Check:
     """GL607 of a file that allows a pressure, and gives no width."""
-    what, fix = "no contact pressure without the width of the roller", "give loads.roller: {width: mm}"
+    what, fix = "no contact pressure without the width of the contact", "give loads.roller: {width: mm}"
     return CONTACT_PRESSURE.check("warn", what, None, allowed, "N/mm^2", fix=fix)
 
 

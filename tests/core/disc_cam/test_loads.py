@@ -38,6 +38,13 @@ def loads(**keys: Any) -> Any:
     return factory.design({**SLIDE, **keys}, command="loads")
 
 
+@pytest.mark.parametrize("follower", [SLIDE["follower"], FLAT], ids=["roller", "flat"])
+def test_a_pressure_without_a_width_is_told_of_any_contact(follower: dict[str, Any]) -> None:
+    cam = {"prime_radius": 40} if follower is not FLAT else {"base_radius": 40}
+    told = loads(follower=follower, cam=cam, loads={"material": {"allowed_pressure": 700}}).check("contact-pressure")
+    assert [check.what for check in told] == ["no contact pressure without the width of the contact"]
+
+
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("follower", [SLIDE["follower"], FLAT, EDGE], ids=["roller", "flat", "edge"])
 def test_the_force_of_the_joints_is_that_along_the_lift(sense: int, follower: dict[str, Any]) -> None:
