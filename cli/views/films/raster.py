@@ -26,7 +26,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from gearlink.cli.files import CannotWrite, unfinished
 from gearlink.cli.process import processors
-from gearlink.cli.views.films.stage import ChartScale, Stage
+from gearlink.cli.views.films.stage import FAULT_ROW, VALUES_ROOM, ChartScale, Stage
 from gearlink.cli.views.scenes.scene import (
     BLACK,
     GREY,
@@ -305,7 +305,12 @@ class Raster:
             width = max(3, size // 4)
             draw.rectangle([0, 0, made.width - 1, made.height - 1], outline=WRONG, width=width)
         for row, line in enumerate(words):
-            draw.text((0.9 * size, (4.0 + 1.2 * row) * size), _MINUS.sub("−", line), font=self._font, fill=WRONG)
+            draw.text(
+                (0.9 * size, (VALUES_ROOM + 0.1 + FAULT_ROW * row) * size),
+                _MINUS.sub("−", line),
+                font=self._font,
+                fill=WRONG,
+            )
 
     def _pixel(self, points: Points, i: int) -> complex:
         return complex(self.stage.pixels(points[i : i + 1])[0])

@@ -13,6 +13,8 @@ from gearlink.cli.views.scenes import shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Chart, Line, Part, Points, Readout, Reals, Scene
 
 _FAULTS = 3
+VALUES_ROOM, FAULT_ROW = 3.9, 1.2
+"""Height of title and values, and of a line of what fails, by that of the text."""
 _ROW = 1.15
 """Height of a row of keys, by that of the text."""
 
@@ -65,10 +67,11 @@ class Stage:
         """Height of the letters in pixels."""
         return max(9, round(min(self.height / 45.0, self.width / 55.0)))
 
-    @property
+    @cached_property
     def head(self) -> float:
-        """Height of title and values."""
-        return 0.0 if self.bare else 3.9 * self.text_size
+        """Height of title, values and what fails at any picture."""
+        most = max((len(self.failing(i)) for i in range(self.count)), default=0) if self.scene.faults else 0
+        return 0.0 if self.bare else (VALUES_ROOM + FAULT_ROW * most) * self.text_size
 
     @property
     def _edge(self) -> float:

@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import machines
 import numpy as np
 import pytest
 import yaml
@@ -29,6 +30,7 @@ from gearlink.cli.views.films import raster
 from gearlink.cli.views.films.page import page, player_stage
 from gearlink.cli.views.films.raster import FINER, Raster, backdrop
 from gearlink.cli.views.films.stage import ChartScale, Stage
+from gearlink.cli.views.scenes import shown
 from gearlink.cli.views.scenes.linkages import build, moving_kinds, pictures_for
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Scene
 from tests.oracles.three_gear_output import output_motion
@@ -405,6 +407,19 @@ def test_all_that_moves_stays_on_the_picture(path: Path) -> None:
             assert points.real.max() < 640.0
             assert points.imag.min() > stage.head
             assert points.imag.max() < 480.0
+
+
+def test_what_fails_stands_above_the_names_of_the_members() -> None:
+    """Of four findings three lines are shown, the last of them their number; they lay on the uppermost members."""
+    plain = machines.cam([(90, 12), (180, 0), (360, None)])
+    members = {f"m{speed}": machines.of(plain | {"speed": speed}) for speed in (50, 60, 70, 80)}
+    press = machines.machine(members, speed=120)
+    scene = shown.build(press, np.arange(4) / 4.0, checks=press.report("analyze").checks)
+    stage = Stage(scene, "press", 960, 720)
+    lines = stage.failing(1)
+    assert lines[-1] == "and 2 more"
+    names = [stage.pixels(mark.point)[1].imag for mark in stage.scene.marks if mark.text in members]
+    assert min(names) - 0.5 * stage.text_size > (4.0 + 1.2 * len(lines)) * stage.text_size
 
 
 def test_mp4_without_ffmpeg_says_so(
