@@ -159,6 +159,25 @@ def named_terms(name: str) -> list[Concept]:
     return sorted(found, key=lambda term: folded(term.name) != asked)
 
 
+def terms_within(text: str, most: int = 4) -> list[str]:
+    """Names of terms that stand in a text, the longest first and none of them within another; of Chinese by its signs.
+
+    Example
+        >>> terms_within("how long is the dwell"), terms_within("预定停歇角")
+        (['dwell'], ['停歇角'])
+    """
+    parts = re.findall(r"[\u4e00-\u9fff]|[^\s_\u4e00-\u9fff-]+", text)
+    left, found = set(range(len(parts))), []
+    for length in range(len(parts), 0, -1):
+        for start in range(len(parts) - length + 1):
+            here = range(start, start + length)
+            name = re.sub(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])", "", " ".join(parts[k] for k in here))
+            if len(name) > 1 and left.issuperset(here) and named_terms(name):
+                left -= {*here}
+                found.append(name)
+    return found[:most]
+
+
 def translated(word: str, kind: str) -> tuple[str, tuple[str, ...]] | None:
     """The term that a German or Chinese word stands for, and its keys in files of a kind; None where it has none.
 

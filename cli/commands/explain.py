@@ -209,12 +209,16 @@ def mentioned(subject: str, most: int = 4) -> list[str]:
     return list(dict.fromkeys(name for _, name in sorted(found)))[:most]
 
 
+_FILLING = {"of", "the", "a", "an", "in", "for", "at", "on"}
+"""Words that may stand between those of a name."""
+
+
 def _turned_round(subject: str) -> Iterator[Topic]:
     """Quantities and terms whose words are those of a name in another order, as in normal backlash."""
     from gearlink.cli.glossary import folded, glossary
     from gearlink.core.base.nomenclature import TERMS
 
-    asked = sorted(map(folded, re.split(r"[\s_-]+", subject)))
+    asked = sorted({*map(folded, re.split(r"[\s_-]+", subject))} - _FILLING)
     if len(asked) < 2:
         return
     yield from (_term(term) for name, term in glossary().items() if sorted(map(folded, name.split())) == asked)
@@ -560,7 +564,7 @@ def _index(format: Format) -> str:
 
 
 def _unknown(subject: str, format: Format) -> int:
-    from gearlink.cli.glossary import folded
+    from gearlink.cli.glossary import folded, terms_within
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
     from gearlink.core.base.nomenclature import TERMS
@@ -568,11 +572,13 @@ def _unknown(subject: str, format: Format) -> int:
     everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
     known = [*(name.rpartition(".")[2] for name in everything), *everything, *term_names()]
     near = near_names(subject, {folded(name): name for name in reversed(known)}.values())
-    told = [] if near else mentioned(subject)
-    lists = "`gearlink explain` lists the codes, `gearlink new` the kinds"
-    remedy = (
-        f"nearest: {', '.join(near)}" if near else f"it stands in the texts of {', '.join(told)}" if told else lists
-    )
+    remedy = "`gearlink explain` lists the codes, `gearlink new` the kinds"
+    if near:
+        remedy = f"nearest: {', '.join(near)}"
+    elif told := mentioned(subject):
+        remedy = f"it stands in the texts of {', '.join(told)}"
+    elif held := terms_within(subject):
+        remedy = f"terms within it: {', '.join(held)}"
     wrong = Diagnostic("GL115", f"nothing is named {named(subject)}", file="<command line>", key=subject, help=remedy)
     show_errors([wrong], Options(format=format))
     return ExitCode.WRONG_INPUT

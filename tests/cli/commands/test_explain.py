@@ -368,6 +368,17 @@ def test_what_texts_say_is_found_in_them(gearlink: Any) -> None:
     assert "stands in the texts of root_radius" in gearlink("explain", "space").err
 
 
+@pytest.mark.parametrize(
+    ("asked", "within"), [("how long is the dwell", "dwell"), ("预定停歇角", "停歇角"), ("is a rocker good", "rocker")]
+)
+def test_of_a_phrase_the_terms_within_it_are_named(gearlink: Any, asked: str, within: str) -> None:
+    assert gearlink("explain", asked).err.rstrip().endswith(f"terms within it: {within}")
+
+
+def test_small_words_do_not_hide_a_term() -> None:
+    assert [topic.name for topic in find("angle of the dwell")] == [topic.name for topic in find("angle dwell")] != []
+
+
 @pytest.mark.parametrize("width", [60, 80, 100])
 def test_text_fits_the_width(gearlink: Any, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
