@@ -293,12 +293,16 @@ def _table(name: str) -> Topic:
     return Topic("table", name, "table of results", by_kind | see)
 
 
+_BOTH_ENDS = " min, max"
+
+
 def _symbols(name: str) -> Iterator[Topic]:
     """The quantities that a symbol stands for in tables and formulas."""
     from gearlink.core.base.nomenclature import TERMS
 
     for quantity, entry in TERMS.items():
-        if name and name in (entry.symbol, *entry.symbol.split(", ")) and name != quantity:
+        written = (entry.symbol, entry.symbol.removesuffix(_BOTH_ENDS), *entry.symbol.split(", "))
+        if name and name in written and name != quantity:
             topic = _quantity(quantity)
             yield Topic("symbol", name, f"{quantity}: {topic.title}", topic.paragraphs)
 

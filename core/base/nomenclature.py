@@ -401,14 +401,16 @@ GEAR_PAIR = {
     "measure_over_pins": Term("M_dR", "mm", "measure over two pins, of a ring between them", "DIN 21773"),
     "chordal_thickness": Term("s_c", "mm", "chordal tooth thickness on the reference circle", "DIN 21773"),
     "chordal_height": Term("h_c", "mm", "height of the chord of the tooth thickness below the tip", "DIN 21773"),
-    "generating_shift": Term("x_E", "1", "generating shift of each gear, minimum and maximum", "DIN 3960"),
+    "generating_shift": Term("x_E min, max", "1", "generating shift of each gear, minimum and maximum", "DIN 3960"),
     "span_measurement_limits": Term("W_k min, max", "mm", "span measurement of each gear, minimum and maximum"),
     "measure_limits": Term(
         "M_dK min, max", "mm", "measure over balls of each gear, of a ring between them, minimum and maximum"
     ),
-    "backlash_circumferential": Term("j_wt", "mm", "backlash on the working circles, minimum and maximum", "DIN 3967"),
-    "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, minimum and maximum", "DIN 3967"),
-    "backlash_angle": Term("j_phi", "deg", "free turn of each gear, minimum and maximum"),
+    "backlash_circumferential": Term(
+        "j_wt min, max", "mm", "backlash on the working circles, minimum and maximum", "DIN 3967"
+    ),
+    "backlash_normal": Term("j_bn min, max", "mm", "backlash between the flanks, minimum and maximum", "DIN 3967"),
+    "backlash_angle": Term("j_phi min, max", "deg", "free turn of each gear, minimum and maximum"),
     "output_play": Term(
         "j_out", "deg", "free rotation of the output gear with the input held, over all teeth; minimum and maximum"
     ),

@@ -185,9 +185,9 @@ def _limits(words: str, symbol: str, nominal: Any, limits: Any) -> Iterator[Row]
 def _thickness(data: GearData) -> Iterator[Row]:
     pair = data.pair
     if data.allowances is not None:
-        for end, name in ((0, "upper"), (1, "lower")):
+        for end, (name, symbol) in enumerate((("upper", "E_sns"), ("lower", "E_sni"))):
             one, other = (each[end] for each in data.allowances)
-            yield f"thickness allowance, {name}", "E_sn", one, other, "mm"
+            yield f"thickness allowance, {name}", symbol, one, other, "mm"
     yield "teeth (ring: spaces) spanned", "k", *pair.span_teeth, ""
     yield from _limits("span measurement", "W_k", pair.span_measurement, data.span_measurement_limits)
     yield "ball diameter", "D_M", *data.pin_diameter, "mm"

@@ -375,6 +375,11 @@ def test_of_a_phrase_the_terms_within_it_are_named(gearlink: Any, asked: str, wi
     assert gearlink("explain", asked).err.rstrip().endswith(f"terms within it: {within}")
 
 
+def test_a_symbol_of_two_ends_is_found_without_them() -> None:
+    assert [topic.title.partition(":")[0] for topic in find("j_bn")] == ["backlash_normal"]
+    assert {"span_measurement", "span_measurement_limits"} < {topic.title.partition(":")[0] for topic in find("W_k")}
+
+
 def test_small_words_do_not_hide_a_term() -> None:
     assert [topic.name for topic in find("angle of the dwell")] == [topic.name for topic in find("angle dwell")] != []
 

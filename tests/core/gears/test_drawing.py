@@ -27,6 +27,15 @@ def test_a_rack_has_the_lines_of_its_teeth_alone() -> None:
     assert lines["face width"] == (30.0, 30.0)
 
 
+def test_allowances_bear_the_symbols_of_their_limits() -> None:
+    """E_sns and E_sni of ISO 21771: both lines were called E_sn."""
+    pair = GEAR | {"teeth": [20, 30], "profile_shift": [0.2, 0]}
+    table = design(pair, command="gear").table("drawing")
+    symbols = dict(zip(table.data[0], table.data[1], strict=True))
+    assert symbols["thickness allowance, upper"] == "E_sns"
+    assert symbols["thickness allowance, lower"] == "E_sni"
+
+
 @pytest.mark.parametrize("written", ["cd25", "25 cd", "cd 25", ["25cd", "cd25"]])
 def test_a_series_of_allowances_may_be_written_as_elsewhere(written: Any) -> None:
     pair = GEAR | {"teeth": [20, 30], "profile_shift": [0.2, 0]}
