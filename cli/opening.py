@@ -81,7 +81,7 @@ def design(command: str | None = None, **keys: Any) -> Opened:
     Raises
         GearlinkError - as `load`; the lines are those of the keys written as JSON
         NoSolution - as `load`, when a quantity is read
-        TypeError - a kind in the place of the command
+        TypeError - a kind, a file or a dict in the place of the command
     Example
         >>> crank = design(kind="slider-crank", stroke=310, rod=520, offset=50)
         >>> round(crank.crank_length, 6)
@@ -89,6 +89,10 @@ def design(command: str | None = None, **keys: Any) -> Opened:
     """
     if isinstance(command, str) and command in KINDS and "kind" not in keys:
         raise TypeError(f"{command} is a kind, no command: write kind={command!r}")
+    if isinstance(command, Mapping):
+        raise TypeError("the keys of a design are keywords: write design(**keys)")
+    if isinstance(command, (str, os.PathLike)) and os.fsdecode(command).endswith((".yaml", ".yml")):
+        raise TypeError(f"{os.fsdecode(command)} is a file, no command: write load({os.fsdecode(command)!r})")
     return _opened(parse(_keywords(keys).encode(), _KEYWORDS), command)
 
 

@@ -366,3 +366,16 @@ def test_the_package_runs_as_the_command_does() -> None:
     line = [sys.executable, "-m", "gearlink", "--version"]
     done = subprocess.run(line, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, f"gearlink {gearlink.__version__}\n", "")
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"kind": "slider-crank"}, r"write design\(\*\*keys\)"),
+        ("feed.yaml", r"write load\('feed\.yaml'\)"),
+        (Path("feed.yml"), r"write load\('feed\.yml'\)"),
+    ],
+)
+def test_a_file_or_a_dict_as_a_design_is_told_what_to_write(given: Any, words: str) -> None:
+    with pytest.raises(TypeError, match=words):
+        gearlink.design(given)
