@@ -228,7 +228,7 @@ def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
     from gearlink.cli.usage_errors import complete
 
     complete(wrong, arguments, _tree())
-    message = wrong.format_message()
+    message = wrong.format_message().replace(" \n", "\n")
     if not _wants_json(arguments):
         if not message.startswith("Usage: "):  # else no arguments: the help of the command is the message
             wrong.message = wrong.message.replace("\n", "\n  help: ", 1)

@@ -137,7 +137,7 @@ def _check(
 @takes("digits", "color", digits="significant digits of values, or full; default: 9")
 def _diff(
     old: Annotated[str, typer.Argument(metavar="OLD", help="design file, or result written with --format json")],
-    new: Annotated[str, typer.Argument(metavar="NEW", help="the same sort of file")],
+    new: Annotated[str, typer.Argument(metavar="NEW", help="another one, of the same sort")],
     options: Options,
     format: PageOption = PageFormat.TABLE,
     tolerance: Annotated[

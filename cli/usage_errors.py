@@ -57,7 +57,7 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
         if remedy:
             wrong.message, wrong.possibilities = f"{message}\n{remedy}", None
     elif hasattr(wrong, "param_type"):
-        wrong.message = message or str(getattr(wrong.param, "help", "") or "")
+        wrong.message = message or f"\n{getattr(wrong.param, 'help', '') or ''}".rstrip()
     elif getattr(wrong, "param", None) is not None:
         wrong.message = _of_value(wrong, arguments, command, tree)
     elif command is tree and (gone := _NO_MORE.get(message.removeprefix("No such command '").partition("'")[0])):

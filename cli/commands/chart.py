@@ -229,7 +229,8 @@ def _report(
     try:
         table = chart.table(low, high, curves, asked.samples)
     except NoSolution as error:
-        raise DesignFileError([Diagnostic("GL112", str(error), "<command line>", key=chart.name)]) from error
+        wrong = Diagnostic("GL112", error.message, "<command line>", key=chart.name, help=error.fix)
+        raise DesignFileError([wrong]) from error
     marked = _marked(chart, asked.design, options) if asked.design else None
     name = chart.name if marked is None else f"{chart.name}, {marked.name}"
     quantities = () if marked is None else marked.quantities

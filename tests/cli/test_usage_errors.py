@@ -72,7 +72,7 @@ def pair(tmp_path: Path) -> Path:
         ("SPEC", "help: for a file: `gearlink analyze "),
         ("bench involute", "help: run times are measured in a checkout of gearlink, by `make bench`"),
         ("gear SPEC other.yaml", "help: gear takes one file, `gearlink batch` and `gearlink check` several"),
-        ("gear", "Missing argument 'SPEC'. design file, or - for standard input"),
+        ("gear", "Missing argument 'SPEC'.    help: design file, or - for standard input"),
     ],
 )
 def test_the_remedy_is_named(gearlink: Any, pair: Path, words: str, remedy: str) -> None:

@@ -206,7 +206,10 @@ def crank_length(d: Any, center_distance: Any, fn: Elementary = SCALARS) -> Any:
 def check_ratio(i3: float) -> None:
     """Refuse a ratio of idler and output gear that is not an external mesh's."""
     if not -math.inf < i3 < 0.0:
-        raise NoSolution(f"i3: {short(i3)} (limit < 0: i3 = -z3/z5, idler and output gear mesh externally)")
+        raise NoSolution(
+            f"i3: {short(i3)} (limit < 0: i3 = -z3/z5, idler and output gear mesh externally)",
+            fix="give a ratio below 0, such as -1.2",
+        )
 
 
 def check_back_step_crank_angle(phi12: float) -> None:

@@ -69,7 +69,7 @@ def test_tables_and_gaps(gearlink: Any, name: str) -> None:
     assert all(value is None or value > 0.0 for row in table["rows"] for value in row[1:])
     refused = gearlink("chart", name, "--range", "1000:2000", "--curves", "1000" if "dwell" in name else "0.5")
     assert refused.status == 2
-    assert "no values there" in refused.err
+    assert "no values there\n  help: widen the range" in refused.err
 
 
 @pytest.mark.slow
