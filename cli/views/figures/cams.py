@@ -202,15 +202,32 @@ def _pressure(axes: Axes, design: DiscCamDesign) -> None:
 
 
 def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
-    """The picture of a command on a cylindrical cam: the track developed at its bottom."""
-    made, (track, *rows) = panels.stack(f"{design.spec.name}: {command}", (1.8, 1.0, 1.0, 1.0, 1.0))
+    """The picture of a command on a cylindrical cam: the track developed at its bottom, motion and pressure angle."""
+    made, (track, *rows) = panels.stack(f"{design.spec.name}: {command}", (1.8, *5 * (1.0,)))
     phi, drum = np.linspace(0.0, TURN * (1.0 - 1e-9), 1441), design.drum
     panels.drawing(track, f"Track developed at its bottom, radius {drum.bottom:.6g} mm")
     for side, color, width in ((0, style.GREY, 0.9), (1, style.BLUE, 1.6), (-1, style.BLUE, 1.6)):
         track.plot(*drum.developed(drum.bottom, side, phi), color=color, linewidth=width)
     _motion(rows, phi, design.follower_motion.evaluate(phi, 3), "mm")
+    _pressure_in_track(rows[-1], design, phi)
     time_axes.over_input(rows[-1], time_axes.turn_time(design))
     return made
+
+
+def _pressure_in_track(axes: Axes, design: CylindricalCamDesign, phi: Any) -> None:
+    """Pressure angle at the bottom of the track, red above its limit, and at the outside."""
+    drum, limit, degrees = design.drum, design.spec.limits.pressure_angle, np.degrees(phi)
+    panels.turn_panel(axes, "pressure\nangle [deg]", "cam angle [deg]", "Pressure angle")
+    bottom, outside = (np.degrees(drum.pressure_angle(x, phi)) for x in (drum.bottom, drum.outside))
+    place, worst = math.degrees(design.steepest.place), math.degrees(design.max_pressure_angle)
+    label = f"bottom, ≤ {worst:.4g}° at {place:.4g}°"
+    axes.plot(degrees, bottom, color=style.BLUE, linewidth=1.5, label=label)
+    axes.plot(degrees, outside, color=style.ORANGE, linewidth=1.2, linestyle=style.DASHED,
+              label=f"outside, ≤ {math.degrees(design.pressure_angle_outside):.4g}°")  # fmt: skip
+    failing.past(axes, degrees, bottom, np.abs(bottom) > limit, "above the limit")
+    for sign, label in ((1.0, f"limit ±{limit:g}°"), (-1.0, "_")):
+        axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)), label=label)
+    panels.legend_above(axes, 4)
 
 
 def _motion(rows: list[Axes], phi: Any, rates: Any, unit: str) -> None:

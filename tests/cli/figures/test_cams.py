@@ -12,6 +12,7 @@ import pytest
 from factory import changed, design
 from sheets import lines, meetings, panel, panel_named, points, sheet, tagged
 
+from gearlink.cli import opening
 from gearlink.cli.views.figures import cams, of_motion
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.drawing.placing import settled
@@ -274,3 +275,21 @@ def test_the_picture_of_a_four_bar_has_the_path_of_its_coupler_point() -> None:
     assert any("path of P" in text.get_text() for text in figure.axes[0].texts)
     (axes, *_) = sheet("crank_rocker").figure.axes
     assert not any(len(line.get_xdata()) == 361 for line in axes.lines)
+
+
+def test_a_cylindrical_cam_shows_where_its_pressure_angle_is_too_large() -> None:
+    """tan(alpha) = s'/x with the peak 1.7596 h/beta of modified sine, at the bottom and at the outside of the track."""
+    motion = [{"to": 100, "lift": 40, "law": "modified-sine"}, {"to": 180}, {"to": 320, "lift": 0, "law": "cycloidal"},
+              {"to": 360}]  # fmt: skip
+    follower = {"type": "translating-roller", "roller_radius": 8}
+    made = opening.design(kind="cylindrical-cam", motion=motion, follower=follower, cam={"radius": 62, "depth": 12})
+    axes = opening.figure(made, "cam").axes
+    shown = next(each for each in axes if each.get_ylabel().startswith("pressure"))
+    curves = {str(line.get_label()).partition(",")[0]: line for line in shown.lines}
+    for name, x in (("bottom", 50.0), ("outside", 62.0)):
+        steepest = math.degrees(math.atan(1.7596 * 40.0 / math.radians(100.0) / x))
+        assert float(np.max(curves[name].get_ydata())) == pytest.approx(steepest, rel=2e-5)  # of the constant's digits
+    over = np.abs(np.asarray(curves["bottom"].get_ydata())) > 30.0
+    red = np.isfinite(np.asarray(curves["above the limit"].get_ydata(), dtype=float))
+    assert over.any()
+    assert (red != over).sum() <= 8  # a step at either end of the two stretches
