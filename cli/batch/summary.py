@@ -369,16 +369,20 @@ def _uri(file: str) -> str:
 
 
 def as_github(results: Sequence[Outcome]) -> str:
-    """Workflow commands, which GitHub shows at the line of the file."""
-    lines = []
+    """Workflow commands, which GitHub shows at the line of the file.
+
+    GitHub shows ten of a step: what several commands find is told once, with all of them.
+    """
+    commands: dict[tuple[Any, ...], list[str]] = {}
     for outcome in results:
-        for status, code, name, message, line, column in _findings(outcome):
-            file = PurePath(
-                outcome.file
-            ).as_posix()  # of Windows too: GitHub knows files by their path in the repository
-            place = f"file={_property(file)},line={line},col={column},title={_property(f'{code} {name}')}"
-            words = _data(f"{outcome.name} ({outcome.command or 'read'}): {message}")
-            lines.append(f"::{_SARIF_LEVEL[status]} {place}::{words}")
+        file = PurePath(outcome.file).as_posix()  # of Windows too: GitHub knows files by their path in the repository
+        for finding in _findings(outcome):
+            commands.setdefault((file, outcome.name, *finding), []).append(outcome.command or "read")
+    lines = []
+    for (file, design, status, code, name, message, line, column), found_by in commands.items():
+        place = f"file={_property(file)},line={line},col={column},title={_property(f'{code} {name}')}"
+        words = _data(f"{design} ({', '.join(dict.fromkeys(found_by))}): {message}")
+        lines.append(f"::{_SARIF_LEVEL[status]} {place}::{words}")
     return "".join(line + "\n" for line in lines)
 
 

@@ -220,6 +220,17 @@ class TestFormats:
         assert lines
         assert all(pattern.fullmatch(line) for line in lines)
 
+    def test_github_is_told_once_what_two_commands_find(self, gearlink: Any, tmp_path: Path) -> None:
+        """A planet of 16 teeth is undercut: `analyze` and `gear` find it."""
+        links = "links: {crank: 29, coupler: 100, rocker: 90, frame: 110}"
+        (tmp_path / "a.yaml").write_text(
+            f"kind: two-gear-four-bar\ngears: {{module: 1, planet: 16, sun: 42}}\n{links}\n"
+        )
+        lines = gearlink("batch", tmp_path, "--format", "github").out.splitlines()
+        (told,) = (line for line in lines if "GL201" in line)
+        assert "::a (analyze, gear): profile shift" in told
+        assert len(set(lines)) == len(lines)
+
     @pytest.mark.quick(3)
     @pytest.mark.parametrize("form", ["table", "csv", "md", "github", "junit", "sarif"])
     def test_a_wrong_file_is_told_its_remedy(self, gearlink: Any, tmp_path: Path, form: str) -> None:
