@@ -155,8 +155,8 @@ def number_remedy(text: str, unit: str = "") -> str:
         return f"it holds {odd_character(odd[0])}: {odd_remedy(odd[0])}"
     if text[:1] in DASHES:
         return f"it holds {odd_character(text[0])}: write -"
-    if re.fullmatch(rf"{_NUMBER}(\s+{_NUMBER})+", text):
-        return f"commas part the elements of a list: {', '.join(text.split())}"
+    if re.fullmatch(rf"{_NUMBER}((\s+|\s*;\s*){_NUMBER})+", text):
+        return f"commas part the elements of a list: {', '.join(text.replace(';', ' ').split())}"
     if re.fullmatch(rf"{_NUMBER}[,;]", text):
         return f"write {text[:-1]}"
     if unit == "deg" and (parts := _SEXAGESIMAL.fullmatch(text)):
@@ -186,10 +186,13 @@ def list_remedy(text: str) -> str:
     """How numbers in a row are written as a list; nothing for other text.
 
     Example
-        >>> list_remedy("20, 30"), list_remedy("20 30"), list_remedy("x")
-        ('write it in brackets: [20, 30]', 'write it in brackets: [20, 30]', '')
+        >>> list_remedy("20, 30"), list_remedy("0,25; 0,1"), list_remedy("x")
+        ('write it in brackets: [20, 30]', 'write it in brackets: [0.25, 0.1]', '')
     """
-    numbers = re.split(r"\s*,\s*|\s+", text[:200].strip())
+    text = text[:200].strip()
+    if ";" in text:  # as a spreadsheet parts numbers with decimal commas
+        text = text.replace(",", ".").replace(";", ",")
+    numbers = re.split(r"\s*,\s*|\s+", text)
     if len(numbers) < 2 or not all(re.fullmatch(_NUMBER, number) for number in numbers):
         return ""
     return f"write it in brackets: [{', '.join(numbers)}]"
