@@ -78,7 +78,9 @@ def _report(
     format: Annotated[
         ReportFormat, typer.Option("--format", "-f", help="file format of the report")
     ] = ReportFormat.HTML,
-    against: Annotated[str, typer.Option(metavar="OLD", help="another file of the kind: say what has changed")] = "",
+    against: Annotated[
+        str, typer.Option(metavar="OLD", help="older file of the same kind: report what has changed")
+    ] = "",
     show: Show = "",
 ) -> None:
     """Write a design as one self-contained HTML page: results, findings, animation, figures, tables, input.
@@ -140,10 +142,12 @@ def _batch(
     places: Annotated[list[str], typer.Argument(metavar="DIR", help="folders, design files or patterns")],
     options: Options,
     format: Annotated[BatchFormat, option("format", help="form of the summary")] = BatchFormat.TABLE,
-    fail_on: Annotated[FailOn, typer.Option("--fail-on", help="what gives exit status 1")] = FailOn.FAILURE,
-    out: Annotated[Path | None, option("out", help="write reports and tables of each design")] = None,
+    fail_on: Annotated[
+        FailOn, typer.Option("--fail-on", help="lowest result that gives exit status 1")
+    ] = FailOn.FAILURE,
+    out: Annotated[Path | None, option("out", help="folder for reports and tables of each design")] = None,
     unchanged: Annotated[
-        Unchanged, typer.Option("--unchanged", help="with --out: skip designs that passed and have not changed since")
+        Unchanged, typer.Option("--unchanged", help="with --out: skip designs that passed and are unchanged since")
     ] = Unchanged.COMPUTE,
     shard: Annotated[str, typer.Option(metavar="I/N", help="run only the I-th of N shares of the files")] = "1/1",
     jobs: Jobs = 0,

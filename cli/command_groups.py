@@ -7,11 +7,11 @@ from typing import Any
 from typer.core import TyperGroup
 
 GROUPS = {
-    "Find the way": ("new", "explain", "schema", "laws", "chart", "help"),
-    "From the task to a design": ("synth", "gears", "explore"),
+    "Learn and start": ("new", "explain", "schema", "laws", "chart", "help"),
+    "Find a design": ("synth", "gears", "explore"),
     "Compute a design": ("analyze", "gear", "crank", "press", "gripper", "swing", "cam", "loads"),
     "Checks and tolerances": ("check", "diff", "tolerance", "register", "verify"),
-    "Show it, make it": ("report", "watch", "studio", "sheet", "animate", "export"),
+    "Show and export": ("report", "watch", "studio", "sheet", "animate", "export"),
     "Many designs": ("batch",),
 }
 """Headings and the commands below them; a command that stands in none comes last."""

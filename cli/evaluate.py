@@ -73,7 +73,7 @@ def build(
             report = design.report(command, **wanted)  # type: ignore[arg-type]
     except UnknownName as error:
         if options.candidates and error.name == "candidates":
-            message = f"`{command}` has nothing that could be chosen otherwise, so there are no candidates"
+            message = f"`{command}` has no values to be chosen, so there are no candidates"
             raise DesignFileError([Diagnostic("GL115", message, file="<--candidates>")]) from error
         raise DesignFileError([_unknown_name(error)]) from error
     return design, report

@@ -96,7 +96,7 @@ def require_free(path: Path, option: str, *, force: bool) -> None:
     if os.path.isdir(path):
         raise CannotWrite(f"{path} is a folder\ngive {option} the name of a file in it")
     if not os.path.isfile(path):
-        raise CannotWrite(f"{path} is no plain file\ngive another {option}, - for standard output")
+        raise CannotWrite(f"{path} is not a regular file\ngive another {option}, - for standard output")
     if not force:
         raise CannotWrite(f"{path} exists already\ngive another {option}, or --force to overwrite it")
 
@@ -109,7 +109,7 @@ def require_folder(path: Path) -> None:
     """
     there = next((place for place in (path, *path.parents) if os.path.lexists(place)), None)
     if there is not None and not os.path.isdir(there):
-        raise CannotWrite(f"cannot write into {path}: {there} is no folder")
+        raise CannotWrite(f"cannot write into {path}: {there} is not a folder")
 
 
 def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
@@ -128,7 +128,7 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
             os.replace(temporary, path)
             (_in_place_of_others.add if differs else _in_place_of_others.discard)(str(path))
     except (FileExistsError, NotADirectoryError) as error:
-        raise CannotWrite(f"cannot write {path}: {path.parent} is no folder") from error
+        raise CannotWrite(f"cannot write {path}: {path.parent} is not a folder") from error
     except OSError as error:
         # Windows moves nothing to a name that a program has open, such as a viewer or a spreadsheet.
         shown = "\nclose the program that shows it" if sys.platform == "win32" and path.is_file() else ""
@@ -190,10 +190,10 @@ def read_plain_file(path: Path, limit: int) -> bytes:
     if path.is_symlink():
         raise OSError(0, "it is a symbolic link", str(path))
     if path.is_dir():  # whose descriptor Python would name instead of the path
-        raise OSError(0, "it is no plain file", str(path))
+        raise OSError(0, "it is not a regular file", str(path))
     with open(os.open(path, os.O_RDONLY | flags), "rb") as stream:
         if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
-            raise OSError(0, "it is no plain file", str(path))
+            raise OSError(0, "it is not a regular file", str(path))
         data = stream.read(limit + 1)
     if len(data) > limit:
         raise OSError(0, f"it is larger than {limit} bytes", str(path))

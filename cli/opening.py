@@ -88,11 +88,11 @@ def design(command: str | None = None, **keys: Any) -> Opened:
         154.211592
     """
     if isinstance(command, str) and command in KINDS and "kind" not in keys:
-        raise TypeError(f"{command} is a kind, no command: write kind={command!r}")
+        raise TypeError(f"{command} is a kind, not a command: write kind={command!r}")
     if isinstance(command, Mapping):
         raise TypeError("the keys of a design are keywords: write design(**keys)")
     if isinstance(command, (str, os.PathLike)) and os.fsdecode(command).endswith((".yaml", ".yml")):
-        raise TypeError(f"{os.fsdecode(command)} is a file, no command: write load({os.fsdecode(command)!r})")
+        raise TypeError(f"{os.fsdecode(command)} is a file, not a command: write load({os.fsdecode(command)!r})")
     return _opened(parse(_keywords(keys).encode(), _KEYWORDS), command)
 
 
@@ -186,7 +186,9 @@ def _placed(kind: type[Design]) -> type[Design]:
     def put(self: Design, name: str, value: Any) -> None:
         opened = "_loaded" in vars(self)
         if opened and (name == "spec" or name in names or name in type(self.spec).model_fields):
-            raise AttributeError(f"{name}: a design does not change: gearlink.changed(design, {{...}}) makes another")
+            raise AttributeError(
+                f"{name}: a design cannot be changed: gearlink.changed(design, {{...}}) makes a new one"
+            )
         object.__setattr__(self, name, value)
 
     def reduce(self: Design) -> Any:
@@ -227,7 +229,7 @@ def _path(path: Any) -> str:
     if not isinstance(path, str):
         raise TypeError(f"a path in a design file is text, not {type(path).__name__}")
     if "=" in path:
-        raise _refused("is no path: the value is next to it", path)
+        raise _refused("is not a path: the value is next to it", path)
     return path
 
 
@@ -244,7 +246,7 @@ def _text(value: Any, key: str, indent: int | None = None) -> str:
     except TypeError:
         refusal = "has a section whose keys are not text"
     except (ValueError, RecursionError):
-        refusal = "holds itself, or sections within sections without end"
+        refusal = "contains itself, or endlessly nested sections"
     raise _refused(refusal, key)
 
 

@@ -76,7 +76,7 @@ def digits(text: str) -> int | str:
 
 def _no_stream(path: Path, what: str) -> Path:
     if path == STREAM:
-        raise ValueError(f"standard output is no {what}: for one of that name give ./-")
+        raise ValueError(f"standard output is not a {what}: for one of that name give ./-")
     return path
 
 
@@ -169,8 +169,8 @@ class Option(NamedTuple):
 
 
 OPTIONS = {
-    "format": Option(("--format", "-f"), "how results are printed", Format),
-    "all": Option(("--all",), "show every quantity, table and check, not the key results alone"),
+    "format": Option(("--format", "-f"), "format of the results", Format),
+    "all": Option(("--all",), "show every quantity, table and check, not only the key results"),
     "digits": Option(
         ("--digits",), "significant digits of the table form, or full; default: 0.001 mm, 0.01 deg, else 4", digits, "N"
     ),
@@ -185,23 +185,30 @@ OPTIONS = {
         ("--quantity",), "print only this quantity (repeatable)", str, "NAME", repeatable=True, offers="quantities"
     ),
     "tables": Option(
-        ("--table",), "add a table; in csv alone (repeatable)", str, "NAME", repeatable=True, offers="tables"
+        ("--table",),
+        "add a table; with csv print only this table (repeatable)",
+        str,
+        "NAME",
+        repeatable=True,
+        offers="tables",
     ),
     "samples": Option(("--samples",), "rows per revolution or stroke", int, least=FEWEST_ROWS, most=MOST_ROWS),
     "strict": Option(("--strict",), "treat a warning as a failure"),
-    "color": Option(("--no-color",), "no colours, as with NO_COLOR=1", stands_for=False),
+    "color": Option(("--no-color",), "print without colours, as with NO_COLOR=1", stands_for=False),
     "quiet": Option(("--quiet", "-q"), "print no notes on standard error"),
-    "profile": Option(("--profile",), "list on standard error what was computed and how long it took"),
+    "profile": Option(("--profile",), "list on standard error the computed results and their times"),
     "suggest": Option(("--suggest",), "try the recommended changes and show the repaired design"),
     "save": Option(
-        ("--save",), "write the complete design: what was found, with --suggest what was changed", file, "FILE"
+        ("--save",), "write the complete design with the values found, with --suggest also those changed", file, "FILE"
     ),
-    "round": Option(("--round",), "of --save: step in mm of the lengths that were found", float, least=1e-6, most=100),
+    "round": Option(
+        ("--round",), "with --save: round the lengths found to this step in mm", float, least=1e-6, most=100
+    ),
     "candidates": Option(
         ("--candidates",),
-        "show designs for the same task side by side (where the file leaves something to be found; gears)",
+        "compare designs for the same task (if the file leaves values to be found)",
     ),
-    "force": Option(("--force",), "let --save overwrite a file"),
+    "force": Option(("--force",), "overwrite an existing file with --save"),
 }
 """The options that commands share, by the field of `Options` that keeps their value."""
 

@@ -34,7 +34,7 @@ class PageFormat(StrEnum):
     MARKDOWN = "md"
 
 
-PageOption = Annotated[PageFormat, option("format", help="how the answer is printed")]
+PageOption = Annotated[PageFormat, option("format", help="format of the answer")]
 
 
 def register_reference(app: typer.Typer) -> None:
@@ -58,7 +58,7 @@ def _new(
         typer.Argument(metavar="KIND", help="kind of design; default: list the kinds", autocompletion=offers("kinds")),
     ] = "",
     out: Annotated[
-        Path | None, option("out", type=file, metavar="FILE", help="file to write; default, and -: the screen")
+        Path | None, option("out", type=file, metavar="FILE", help="file to write; default, or -: standard output")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="overwrite the file")] = False,
 ) -> None:
@@ -81,7 +81,7 @@ def _schema(
         typer.Argument(metavar="KIND", help="kind of design; default: all kinds", autocompletion=offers("kinds")),
     ] = None,
     write: Annotated[
-        Path | None, place(folder, "--write", metavar="DIR", help="write it there, with settings for VS Code")
+        Path | None, place(folder, "--write", metavar="DIR", help="folder for the schema and settings for VS Code")
     ] = None,
 ) -> None:
     """JSON Schema (draft-07) of the design files, for editors that check and complete while you type.
@@ -137,7 +137,7 @@ def _check(
 @takes("digits", "color", digits="significant digits of values, or full; default: 9")
 def _diff(
     old: Annotated[str, typer.Argument(metavar="OLD", help="design file, or result written with --format json")],
-    new: Annotated[str, typer.Argument(metavar="NEW", help="another one, of the same sort")],
+    new: Annotated[str, typer.Argument(metavar="NEW", help="file of the same type")],
     options: Options,
     format: PageOption = PageFormat.TABLE,
     tolerance: Annotated[
@@ -163,14 +163,17 @@ def _verify(
     prefixes: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="CASE-PREFIX", help="cases that begin so; default: all", autocompletion=offers("published_cases")
+            metavar="CASE-PREFIX",
+            help="only cases with this prefix; default: all",
+            autocompletion=offers("published_cases"),
         ),
     ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="show every number, not a line for each case")] = False,
+    everything: Annotated[bool, typer.Option("--all", help="show every number, not one line per case")] = False,
 ) -> None:
     """Compute published cases with this installation and compare each number with its source.
 
-    Books, standards and reports, kept with the program. Exit status 0: every number is met, 1: one is not.
+    The cases come from books, standards and reports, and are part of the program. Exit status 0: all numbers agree
+    within their limits, 1: at least one does not.
 
     Example: gearlink verify khurmi
     """
@@ -234,11 +237,19 @@ def _chart(
     spec: Annotated[str, typer.Argument(metavar="SPEC", help="design file, of the chart residual")] = "",
     design: Annotated[str, typer.Option("--design", metavar="SPEC", help="mark this design in the chart")] = "",
     range_: Annotated[str, typer.Option("--range", metavar="LOW:HIGH", help="range of the x axis")] = "",
-    curves: Annotated[str, typer.Option("--curves", metavar="A,B,...", help="a curve for each parameter")] = "",
+    curves: Annotated[
+        str, typer.Option("--curves", metavar="A,B,...", help="draw a curve for each of these parameters")
+    ] = "",
     samples: Annotated[int, option("samples", help="rows of the table", most=1_000_000)] = 91,
-    device: Annotated[str, typer.Option("--device", metavar="TYPE", help="of a wide swing: pneumatic or spring")] = "",
-    stretch_ratio: Annotated[float | None, typer.Option("--stretch-ratio", min=0.0, help="of that spring")] = None,
-    pivot_ratio: Annotated[float | None, typer.Option("--pivot-ratio", min=1.0, help="of that device")] = None,
+    device: Annotated[
+        str, typer.Option("--device", metavar="TYPE", help="device of a wide swing: pneumatic or spring")
+    ] = "",
+    stretch_ratio: Annotated[
+        float | None, typer.Option("--stretch-ratio", min=0.0, help="stretch ratio of that spring")
+    ] = None,
+    pivot_ratio: Annotated[
+        float | None, typer.Option("--pivot-ratio", min=1.0, help="pivot ratio of that device")
+    ] = None,
 ) -> None:
     """Design charts of the three-gear four-bar with I = 1 over frame and gears, and of wide swings over the swing.
 
@@ -261,7 +272,9 @@ def _animate(
     fps: Annotated[int, typer.Option(min=1, max=50, help="frames per second")] = 25,
     seconds: Annotated[
         float | None,
-        typer.Option(min=0.1, max=120.0, help="length of the loop; default: 4, or longer where teeth move fast"),
+        typer.Option(
+            min=0.1, max=120.0, help="length of the loop in seconds; default: 4, or longer if teeth move fast"
+        ),
     ] = None,
     size: Annotated[str, typer.Option(metavar="WIDTHxHEIGHT", help="size of the figure in pixels")] = "960x720",
     show: Show = "",
@@ -290,18 +303,20 @@ def _sheet(
         ),
     ] = None,
     scale: Annotated[
-        str | None, typer.Option(metavar="1[:N]", help="draw cams true to this scale, with a bar that checks the print")
+        str | None, typer.Option(metavar="1[:N]", help="draw cams to this scale, with a bar to check the print")
     ] = None,
     paper: Annotated[
-        Paper | None, typer.Option(help="of --scale: the sheet of paper; default: as large as the drawing")
+        Paper | None, typer.Option(help="with --scale: paper size; default: as large as the drawing")
     ] = None,
     at: Annotated[
         str,
-        typer.Option(metavar="X,...", help="of vectors: inputs in deg or mm, at most 4; default: the fastest"),
+        typer.Option(
+            metavar="X,...", help="for vectors: up to 4 inputs in deg or mm; default: that of the maximum speed"
+        ),
     ] = "",
     show: Show = "",
     format: Annotated[  # the name of the option
-        PlotFormat | None, typer.Option("--format", "-f", help="the same as --plot-format")
+        PlotFormat | None, typer.Option("--format", "-f", help="same as --plot-format")
     ] = None,
 ) -> None:
     """Write further sheets of a design: motion of every output, vectors, timing, drawings of its parts.
@@ -358,15 +373,15 @@ def _tolerance(
     options: Options,
     samples: Samples = None,
     seed: Seed = None,
-    worst_case: Annotated[bool, typer.Option("--worst-case", help="add the table corners")] = False,
+    worst_case: Annotated[bool, typer.Option("--worst-case", help="add the table corners (worst case)")] = False,
     sobol: Annotated[bool, typer.Option("--sobol", help="Sobol' indices of every source")] = False,
     allocate: Annotated[
-        bool, typer.Option("--allocate", help="add the table allocation: grades at least cost")
+        bool, typer.Option("--allocate", help="add the table allocation: grades of minimum cost")
     ] = False,
     jobs: Jobs = 0,
     dask: Scheduler = "",
 ) -> None:
-    """Yield of a design as manufactured: spreads, capabilities, and which tolerance contributes what.
+    """Yield of a design as manufactured: variation, capability and contribution of each tolerance.
 
     Exit status: 1 a check of the nominal design fails, or the yield may lie below its target.
 
@@ -394,14 +409,14 @@ def _register(
     ] = None,
     method: Annotated[Method | None, typer.Option("--method", help="how the band is computed")] = None,
     radius: Annotated[
-        float | None, typer.Option("--radius", min=1e-6, help="radius of the output's error in mm")
+        float | None, typer.Option("--radius", min=1e-6, help="radius in mm at which the output's error is given")
     ] = None,
     samples: Samples = None,
     seed: Seed = None,
     jobs: Jobs = 0,
     dask: Scheduler = "",
 ) -> None:
-    """Register: what play, runout and the other errors of the parts cost at the output, by source.
+    """Register: error at the output due to play, runout and other errors of the parts, by source.
 
     Exit status: 1 the budget is exceeded.
 
@@ -427,21 +442,23 @@ def _explore(
     source: Annotated[str, typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
     options: Options,
     store: Annotated[
-        Path | None, place(plain_file, "--store", metavar="FILE", help="keep what is finished in this file")
+        Path | None, place(plain_file, "--store", metavar="FILE", help="keep finished results in this file")
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="continue what the store has")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="continue from the results in the store")] = False,
     budget: Annotated[float | None, typer.Option(min=1.0, metavar="N", help="most designs")] = None,
     seed: Annotated[int | None, typer.Option(min=0, metavar="N", help="seed of a sampled study")] = None,
     jobs: Jobs = 0,
     dask: Dask = "",
-    show: Annotated[str, typer.Option(metavar="N", help="print design N (mK: nearest miss of row K of why)")] = "",
+    show: Annotated[
+        str, typer.Option(metavar="N", help="print design N (mK: design nearest to row K of the table why)")
+    ] = "",
     write: Annotated[
         Path | None, place(folder, "--write", metavar="DIR", help="write the kept designs as files")
     ] = None,
 ) -> None:
-    """Find the best of many designs: the exact front of a grid, or a sampled one.
+    """Find the best of many designs: the exact Pareto front of a grid, or a sampled one.
 
-    Exit status: 0 there is a front, 1 no design satisfies everything, 2 the study is wrong.
+    Exit status: 0 there is a front, 1 no design satisfies all conditions, 2 the study is wrong.
 
     Example: gearlink explore designs/studies/dwell_feed.yaml
     """
@@ -477,19 +494,20 @@ def _export(
             min=LEAST_TOLERANCE,
             max=MOST_TOLERANCE,
             metavar="MM",
-            help="maximum chord error, default 0.001; of --cam-table the maximum error of position (mm, deg)",
+            help="maximum chord error, default 0.001; with --cam-table maximum position error (mm, deg)",
         ),
     ] = None,
-    curve: Annotated[CurveForm, typer.Option(help="chords, or cubics through points")] = CurveForm.POLYLINE,
+    curve: Annotated[CurveForm, typer.Option(help="polyline of chords, or cubic spline")] = CurveForm.POLYLINE,
     width: Annotated[
         float | None,
         typer.Option(min=1e-3, max=1e5, metavar="MM", help="width of STEP solids; default: face_width of the file"),
     ] = None,
     cam_table: Annotated[
-        bool, typer.Option("--cam-table", help="the table of a servo drive instead of a cam, NAME-cam-table.csv")
+        bool, typer.Option("--cam-table", help="write the table for a servo drive instead of a cam, NAME-cam-table.csv")
     ] = False,
     rows: Annotated[
-        int | None, typer.Option(min=2, max=100_000, help="rows of --cam-table, both ends; default: servo of the file")
+        int | None,
+        typer.Option(min=2, max=100_000, help="rows of --cam-table, both ends included; default: servo of the file"),
     ] = None,
 ) -> None:
     """Write the profiles of cams and gears as DXF, SVG, CSV or STEP, NAME-PART.dxf for each part; gears as REXS.

@@ -25,7 +25,7 @@ _WITHOUT = {"report": "html", "new": "yaml", "schema": "json"}
 
 _ON_DASK = "`--dask ADDRESS` computes on a cluster, `--jobs N` in processes"
 _GONE = {
-    ("batch", "--cache"): "`--out DIR --unchanged skip` leaves out designs that passed and have not changed since",
+    ("batch", "--cache"): "`--out DIR --unchanged skip` skips designs that passed and are unchanged since",
     ("explore", "--shard"): _ON_DASK,
     ("explore", "--merge"): f"one store holds the whole study: {_ON_DASK}",
     ("explore", "--executor"): _ON_DASK,
@@ -68,7 +68,9 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     elif message.startswith("Got unexpected extra") and command.name == "laws":
         wrong.message = f"{message}\n{of_law(message.rpartition('(')[2].rstrip(').').split(' ')[0])}"
     elif message.startswith("Got unexpected extra") and [p.name for p in command.params if p.name in _ONE] == ["spec"]:
-        wrong.message = f"{message}\n{command.name} takes one file, `gearlink batch` and `gearlink check` several"
+        wrong.message = (
+            f"{message}\n{command.name} accepts one file; `gearlink batch` and `gearlink check` accept several"
+        )
 
 
 # Options
@@ -87,7 +89,7 @@ def _of_option(name: str, arguments: Sequence[str], command: Any, tree: Any) -> 
         return "; ".join(_written(known[each]) for each in ("out", "save", "write") if each in known)
     having = [path for path, each in _leaves(tree) if any(name in param.opts for param in each.params)]
     more = ", ..." if len(having) > _NAMED else ""
-    return f"it belongs to {', '.join(having[:_NAMED])}{more}" if having else ""
+    return f"it is an option of {', '.join(having[:_NAMED])}{more}" if having else ""
 
 
 def _written(param: Any) -> str:
@@ -103,7 +105,7 @@ def _writer(word: str, command: Any, tree: Any) -> str:
     if word == "yaml" and any(param.name == "save" for param in command.params):
         return "give --save FILE, which writes the design as YAML"
     if _WITHOUT.get(command.name) == word:
-        return f"{command.name} writes {word.upper()} without being told"
+        return f"{command.name} always writes {word.upper()}"
     printed = any("table" in _values(param) for param in command.params)  # without this form, on purpose
     return "" if printed and word in ("json", "csv", "md") else _elsewhere(word, tree)
 

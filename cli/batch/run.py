@@ -123,7 +123,7 @@ def require_places(files: Sequence[Path]) -> None:
     for file in files:
         other = taken.setdefault(place_of(file), file)
         if other != file:
-            message = f"{other} and this file would have their results in one folder"
+            message = f"{other} and this file would write their results into one folder"
             help_ = "name the files of one run either all from the current folder or all from the root"
             raise DesignFileError([Diagnostic("GL116", message, file=str(file), help=help_)])
 
@@ -458,7 +458,7 @@ def _alone(path: Path, options: BatchOptions) -> list[Outcome]:
         with workers(1) as pool:
             return pool.submit(_chunk, [path], options).result()
     except (BrokenExecutor, OSError):
-        message = "fault: the process that had this file died; `gearlink check` on it alone may show why"
+        message = "fault: the process that computed this file ended; `gearlink check` on this file may show why"
         wrong = Diagnostic("GL199", message, file=str(path))
         return [Outcome(str(path), "", stem_of(path), "", ExitCode.FAULT, None, (wrong,))]
 

@@ -88,7 +88,7 @@ def _residual(asked: Asked, options: Options) -> int:
     """The chart of what vibration the laws of a file leave."""
     try:
         if not asked.design:
-            words = "the chart residual is about the laws of a file: gearlink chart residual SPEC"
+            words = "the chart residual needs a file with motion laws: gearlink chart residual SPEC"
             raise DesignFileError([Diagnostic("GL115", words, "<command line>", key="residual")])
         if options.plot:
             require_folder(options.out)
@@ -166,7 +166,9 @@ def _with_device(chart: DesignChart, asked: Asked) -> DesignChart:
         return chart
     if chart.kind != "wide-swing-cam":
         raise _wrong(
-            "--device", device or chart.name, f"not in the chart: the chart {chart.name} is about no unloading device"
+            "--device",
+            device or chart.name,
+            f"not in the chart: the chart {chart.name} does not depend on an unloading device",
         )
     if device not in ("", "pneumatic", "spring"):
         raise _wrong("--device", device, "pneumatic or spring")
@@ -245,7 +247,7 @@ def _marked(chart: DesignChart, source: str, options: Options) -> Marked:
     """
     loaded, kind = open_design(source, options)
     if kind.name != chart.kind:
-        words = f"a {kind.name} is not in the chart {chart.name}; it is about the kind {chart.kind}"
+        words = f"a {kind.name} is not in the chart {chart.name}; it applies to the kind {chart.kind}"
         raise wrong_kind(loaded, words)
     spec = read_spec(loaded, kind, source)
     with refusals_located(loaded):
@@ -259,9 +261,9 @@ def _located_swing(chart: DesignChart, design: Any) -> Marked:
     device = "spring" if "stretch_ratio" in given else "pneumatic"
     if spec.unloader.type != device or spec.slider is not None:
         key = "unloader.type" if spec.unloader.type != device else "slider"
-        raise NoSolution(f"the chart {chart.name} is about a {_DEVICES[device]} that unloads a rocker alone", key=key)
+        raise NoSolution(f"the chart {chart.name} applies to a {_DEVICES[device]} that unloads only a rocker", key=key)
     if chart.y.name == "curvature_ratio" and spec.layout != "twin-rocker":
-        raise NoSolution(f"the chart {chart.name} is about an internal profile: layout twin-rocker", key="layout")
+        raise NoSolution(f"the chart {chart.name} applies to an internal profile: layout twin-rocker", key="layout")
     place = chart.place(design)
     assert place is not None, "a law has its peaks"
     name = "middle_radius_estimate" if chart.y.name == "curvature_ratio" else chart.y.name
@@ -281,7 +283,7 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
     place = chart.place(design)
     if place is None and chart.y.name == "tolerance_dwell_angle":
         raise NoSolution(
-            (f"this design names no tolerance of its dwell, so it is not in the chart {chart.name}"),
+            (f"this design has no tolerance of its dwell, so it is not in the chart {chart.name}"),
             key="dwell_tolerance",
             fix="give dwell_tolerance",
         )
@@ -291,7 +293,7 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
                 "the output of this design never steps back (minimum speed ratio "
                 f"{design.speed_ratio_min:.6g}), so it is not in the chart {chart.name}"
             ),
-            fix="shorten the frame, or take the chart nonuniformity",
+            fix="shorten the frame, or use the chart nonuniformity",
         )
     family = design.crank_length * math.sqrt(0.5 * (1.0 + design.frame_ratio**2))
     names = ("i3", "frame_ratio", "back_step_crank_angle", "back_step_angle", "nonuniformity")

@@ -194,7 +194,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     verdict = f"{amount(designs, 'design')}: {words}"
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:
-        print("`gearlink explain CODE` says what a code means and how to repair the design", file=sys.stderr)
+        print("`gearlink explain CODE` explains a code and how to repair the design", file=sys.stderr)
 
 
 def _counted(count: int, status: str) -> str:

@@ -127,7 +127,7 @@ def read_result(file: str) -> dict[str, Any] | None:
     return data
 
 
-_TOO_DEEP = f"nested deeper than the {_DEEPEST} levels that a result may have"
+_TOO_DEEP = f"nested deeper than {_DEEPEST} levels, the maximum of a result"
 
 
 def incomparable(file: str, message: str) -> DesignFileError:
@@ -150,14 +150,14 @@ def _text(file: str) -> bytes | None:
         return None
     if len(data) > LARGEST:
         help_ = "compare results without their tables, or of fewer designs"
-        message = f"larger than {LARGEST >> 20} MiB, more than is compared"
+        message = f"larger than {LARGEST >> 20} MiB, the maximum for a comparison"
         raise DesignFileError([Diagnostic("GL117", message, file=file, help=help_)])
     return data
 
 
 def _whole(digits: str, file: str) -> int:
     if len(digits.lstrip("-")) > _MOST_DIGITS:
-        raise incomparable(file, f"a whole number of {len(digits.lstrip('-'))} digits is no value of a design")
+        raise incomparable(file, f"a whole number of {len(digits.lstrip('-'))} digits is not a value of a design")
     return int(digits)
 
 
@@ -258,7 +258,9 @@ def _result_side(file: str, data: dict[str, Any]) -> Side:
     """A result of a design command, or of a batch, whose designs are distinguished by their names."""
     several = isinstance(data.get("designs"), list)
     if not several and "quantities" not in data:
-        message = "this JSON holds errors, not a result" if "errors" in data else "no result of a design in this JSON"
+        message = (
+            "this JSON contains errors, not a result" if "errors" in data else "no result of a design in this JSON"
+        )
         raise incomparable(file, message)
     named: dict[str, dict[str, Any]] = {}
     for result in data["designs"] if several else [data]:

@@ -64,7 +64,7 @@ def _of_output(name: str) -> str:
             return f"share of the member {found['of']} in the torque on the main shaft"
         return f"{found['what']} of the output of the member {found['of']}"
     if name.startswith("guide") and name.endswith("_position"):
-        return "position of what slides in the guide"
+        return "position of the part that slides in the guide"
     if re.fullmatch(r"lever_(speed|acceleration)", name):
         return f"angular {name.removeprefix('lever_')} of the lever"
     return "amplitude of the disc in that mode, where the last disc has 1" if re.fullmatch(r"mode_\d+", name) else ""
@@ -97,7 +97,7 @@ def column_words(name: str) -> str:
     if _MESH.fullmatch(name):
         return "tangential force in that mesh, signed; of a column ..._radial the radial one"
     if name.startswith("guide") and name.endswith("_moment"):
-        return "couple of the guide on what slides in it"
+        return "couple of the guide on the part that slides in it"
     return f"magnitude of the force at the joint {name}, in the table joints" if _JOINT.fullmatch(name) else ""
 
 
@@ -484,8 +484,8 @@ def _law(name: str) -> Topic:
         "Source": "VDI 2143; SCCA family: own derivation",
     }
     if not rest:
-        paragraphs["Share"] = f"kappa = {found.kappa:.6g} of (end speed) x (time) is travelled"
-    return Topic("law", name, f"law of motion, {found.kind}", paragraphs)
+        paragraphs["Share"] = f"the rise is kappa = {found.kappa:.6g} times (end speed) x (time)"
+    return Topic("law", name, f"motion law, {found.kind}", paragraphs)
 
 
 def _law_formula(name: str) -> str:
@@ -498,7 +498,7 @@ def _use(name: str) -> str:
 
 _LAW_USE = {
     "": "",
-    "half-": "; of this law the first half is taken, up to its peak velocity",
+    "half-": "; only the first half of this law is used, up to its peak velocity",
     "velocity-": "; the velocity follows this rise",
 }
 _MCV = "modified sine whose middle runs NN percent of the time at constant velocity (33: one third)"
@@ -580,9 +580,9 @@ def _unknown(subject: str, format: Format) -> int:
     if near:
         remedy = f"nearest: {', '.join(near)}"
     elif told := mentioned(subject):
-        remedy = f"it stands in the texts of {', '.join(told)}"
+        remedy = f"it occurs in the texts of {', '.join(told)}"
     elif held := terms_within(subject):
         remedy = f"terms within it: {', '.join(held)}"
-    wrong = Diagnostic("GL115", f"nothing is named {named(subject)}", file="<command line>", key=subject, help=remedy)
+    wrong = Diagnostic("GL115", f"unknown name {named(subject)}", file="<command line>", key=subject, help=remedy)
     show_errors([wrong], Options(format=format))
     return ExitCode.WRONG_INPUT

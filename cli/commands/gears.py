@@ -17,10 +17,12 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.shifts.search import Carried, PairTask
 
 
-Torque = Annotated[float | None, typer.Option("--torque", min=1e-6, max=1e9, help="of gear 1, N m: rated for it")]
-Speed = Annotated[float | None, typer.Option("--speed", min=1e-3, max=1e6, help="of gear 1, 1/min")]
+Torque = Annotated[
+    float | None, typer.Option("--torque", min=1e-6, max=1e9, help="torque of gear 1, N m, for the rating")
+]
+Speed = Annotated[float | None, typer.Option("--speed", min=1e-3, max=1e6, help="speed of gear 1, 1/min")]
 Life = Annotated[float, typer.Option("--life", min=1e-3, max=1e9, help="required life under the torque, h")]
-Material = Annotated[str, typer.Option("--material", metavar="A,B", help="steel of both gears, or of each")]
+Material = Annotated[str, typer.Option("--material", metavar="A,B", help="steel of both gears, or of each gear")]
 Application = Annotated[float, typer.Option("--application", min=0.1, max=10.0, help="application factor K_A")]
 Grade = Annotated[int, typer.Option("--grade", min=1, max=11, help="accuracy grade of ISO 1328-1")]
 Oil = Annotated[float, typer.Option("--vg", min=1.0, max=1e4, help="viscosity of the oil at 40 deg C, mm^2/s")]
@@ -30,14 +32,20 @@ _BEST = 10
 WidthRatio = Annotated[float, typer.Option("--width-ratio", min=0.05, max=3.0, help="maximum face width over d1")]
 
 
-@takes("format", "all", "digits", "color", "quiet", all="show every pair, not the best ten alone")
+@takes("format", "all", "digits", "color", "quiet", all="show every pair, not only the best ten")
 def gears(
     options: Options,
-    ratio: Annotated[float, typer.Option("--ratio", metavar="I", min=1e-3, max=1e3, help="teeth 2 over teeth 1")],
+    ratio: Annotated[
+        float, typer.Option("--ratio", metavar="I", min=1e-3, max=1e3, help="number of teeth of gear 2 over gear 1")
+    ],
     center_distance: Annotated[
         float | None,
         typer.Option(
-            "--center-distance", metavar="A", min=1e-3, max=1e6, help="mm; with --torque the minimum is found"
+            "--center-distance",
+            metavar="A",
+            min=1e-3,
+            max=1e6,
+            help="centre distance, mm; default with --torque: the minimum is found",
         ),
     ] = None,
     modules: Annotated[
@@ -51,7 +59,9 @@ def gears(
     ] = 0.02,
     helix: Annotated[float, typer.Option("--helix", min=0.0, max=45.0, help="helix angle, deg")] = 0.0,
     internal: Annotated[bool, typer.Option("--internal", help="gear 2 is a ring")] = False,
-    least_teeth: Annotated[int, typer.Option("--least-teeth", min=3, max=1000, help="of gear 1")] = 17,
+    least_teeth: Annotated[
+        int, typer.Option("--least-teeth", min=3, max=1000, help="minimum number of teeth of gear 1")
+    ] = 17,
     torque: Torque = None,
     speed: Speed = None,
     life: Life = 20000.0,
@@ -84,9 +94,7 @@ def gears(
             )
         carried = _carried(torque, speed, life, material, application, grade, vg, crowned, width_ratio)
     if center_distance is None and carried is None:
-        raise typer.BadParameter(
-            "give it, or --torque and --speed for the smallest one", param_hint="--center-distance"
-        )
+        raise typer.BadParameter("give it, or --torque and --speed to find the minimum", param_hint="--center-distance")
 
     task = PairTask(
         ratio=ratio,
@@ -119,7 +127,7 @@ def _carried(torque: float, speed: float, life: float, material: str, *rest: Any
             text = f"did you mean {near[0]}?" if near else f"known are {', '.join(STEELS)}"
             raise typer.BadParameter(f"no material is called {name}\n{text}", param_hint="--material")
         if name in CLASSES and CLASSES[name].needs_hardness:
-            text = f"the strength of {name} depends on its hardness\nname a steel: {', '.join(STEELS)}"
+            text = f"the strength of {name} depends on its hardness\ngive a steel: {', '.join(STEELS)}"
             raise typer.BadParameter(text, param_hint="--material")
     if len(names) > 2:
         raise typer.BadParameter(
@@ -186,8 +194,8 @@ def _remedy(task: PairTask) -> str:
     fewest = task.least_teeth * abs(task.ratio + (-1.0 if task.internal else 1.0))
     if fewest > MOST_TEETH * (1.0 + task.tolerance):
         return (
-            f"gear 1 of {task.least_teeth} teeth and more takes a sum of {fewest:.0f}, and pairs are sought up to "
-            f"{MOST_TEETH}: lower --least-teeth or --ratio"
+            f"gear 1 of {task.least_teeth} teeth and more takes a sum of {fewest:.0f}, but pairs are searched only up "
+            f"to {MOST_TEETH}: lower --least-teeth or --ratio"
         )
     return "widen --shift-sum or --ratio-tolerance, or name other --modules"
 
@@ -207,9 +215,9 @@ def _numbers(text: str, sign: str, option: str) -> tuple[float, ...]:
     try:
         numbers = tuple(float(part) for part in text.split(sign) if part.strip())
     except ValueError:
-        raise typer.BadParameter(f"{text!r} holds something that is no number", param_hint=option) from None
+        raise typer.BadParameter(f"{text!r} contains something other than numbers", param_hint=option) from None
     least, most = (1e-3, 1e3) if option == "--modules" else (-10.0, 10.0)
     if not all(least <= number <= most for number in numbers):
-        words = f"{text!r} holds a number that is not from {least:g} to {most:g}"
+        words = f"{text!r} contains a number that is not from {least:g} to {most:g}"
         raise typer.BadParameter(words, param_hint=option)
     return numbers

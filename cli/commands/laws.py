@@ -32,10 +32,10 @@ def laws(
     law: Annotated[
         list[str],
         typer.Option(
-            "--law", metavar="NAME", help="s, v, a, j of this law (repeatable)", autocompletion=offers("laws")
+            "--law", metavar="NAME", help="print s, v, a, j of this law (repeatable)", autocompletion=offers("laws")
         ),
     ] = [],  # noqa: B006 - Typer copies it
-    samples: Annotated[int | None, option("samples", help="steps of x; default: 100", least=1)] = None,
+    samples: Annotated[int | None, option("samples", help="number of steps of x; default: 100", least=1)] = None,
 ) -> None:
     """Constants Cv, Ca, Cj, Cm, kappa of every motion law; with --law, s, v, a, j of one law over x.
 
@@ -50,12 +50,12 @@ def laws(
 
         raise typer.BadParameter(f"no such file\n{of_law(spec)}", param_hint=spec)
     if spec and law:
-        raise typer.BadParameter("a design file names its law\nomit --law, or the file", param_hint="--law")
+        raise typer.BadParameter("a design file already defines its law\nomit --law, or the file", param_hint="--law")
     if not spec:
         for name in _OF_FILES:
             if getattr(options, name) != getattr(Options(), name):
                 flag = OPTIONS[name].flags[0]
-                raise typer.BadParameter("goes with SPEC, a design file of kind motion-law", param_hint=flag)
+                raise typer.BadParameter("needs SPEC, a design file of kind motion-law", param_hint=flag)
         raise typer.Exit(run_laws(law, options))
     from gearlink.cli.commands.design import run_design
 

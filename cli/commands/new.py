@@ -72,10 +72,9 @@ def template(kind: Kind, name: str = "") -> str:
         design = _explained(kind, worked, name)
     asked = index().first_commands[kind.name]
     head = (
-        f"# yaml-language-server: $schema={kind.name}.schema.json\n"
-        f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
-        f"# Run it with: gearlink {asked} FILE\n"
-        "# A number is in the unit named behind it; another unit may be written with the number\n"
+        f"# yaml-language-server: $schema={kind.name}.schema.json\n# (for editors that check as you type; make it by: "
+        f"gearlink schema {kind.name} > {kind.name}.schema.json)\n# Run it with: gearlink {asked} FILE\n# A number is "
+        "in the unit named after it; another unit may be written with the number\n"
     )
     warned = "".join(f"{line}\n" for line in worked.splitlines() if design != worked and _WARNED.match(line))
     return f"{head}{warned}\n" + design.rstrip("\n") + "\n" + _left_out(kind, design)
@@ -123,9 +122,7 @@ def _left_out(kind: Kind, text: str) -> str:
         return ""
     width = max(len(label) for label, _ in rows)
     lines = [f"{label:<{width}}   # {words}" for label, words in rows]
-    return "\n# Keys that this file leaves out, with their defaults; a.b is b in the section a:\n" + "\n".join(
-        [*lines, ""]
-    )
+    return "\n# Keys that this file omits, with their defaults; a.b is b in the section a:\n" + "\n".join([*lines, ""])
 
 
 def _holders(data: Any, parent: str) -> list[Any]:
@@ -157,7 +154,7 @@ def _heading(parent: str, holders: Sequence[Any], *, listed: bool) -> Iterator[t
         before, _, name = parent.removesuffix("[]").rpartition(".")
         yield f"# {_margin(f'{before}.') if before else ''}{name}:", "a list instead of the section"
     elif parent.endswith(".NAME"):
-        yield f"# {_margin(parent.removesuffix('.NAME'))}  NAME:", "an entry for each, under its name"
+        yield f"# {_margin(parent.removesuffix('.NAME'))}  NAME:", "one entry for each, under its name"
 
 
 def _margin(path: str) -> str:

@@ -43,9 +43,7 @@ def require_place(options: Options) -> None:
         DesignFileError - GL115 for `--round` without `--save`
     """
     if options.round is not None and options.save is None:
-        raise DesignFileError(
-            [Diagnostic("GL115", "--round goes with --save FILE", file="<command line>", key="--round")]
-        )
+        raise DesignFileError([Diagnostic("GL115", "--round needs --save FILE", file="<command line>", key="--round")])
     if options.save is not None and options.save != STREAM:
         require_free(options.save, "--save", force=options.force)
 
@@ -60,7 +58,7 @@ def save(
     """
     assert options.save is not None
     again = "analyze" if "analyze" in kind.commands else command
-    with patience("computing what is saved", quiet=options.quiet):
+    with patience("computing the design to be saved", quiet=options.quiet):
         text = complete(loaded, kind, command, design, options.save, options.round, changes)
         rounded = _as_rounded(kind, again, text, options)
     if options.save == STREAM:
@@ -90,7 +88,7 @@ def _as_rounded(kind: Kind, command: str, text: str, options: Options) -> Design
         _failing(design, command)
     except (DesignFileError, NoSolution) as error:
         reason = error.message if isinstance(error, NoSolution) else error.diagnostics[0].message
-        words = f"rounded to {options.round:g} mm there is no such mechanism: {reason}\ngive a smaller --round"
+        words = f"rounded to {options.round:g} mm the mechanism does not exist: {reason}\ngive a smaller --round"
         raise DesignFileError([Diagnostic("GL115", words, file="<command line>", key="--round")]) from error
     return design
 

@@ -94,7 +94,7 @@ def _require_vectors(asked: Asked, at: Sequence[float], chosen: Sequence[str], d
     for key, given in (("--at", asked.at), ("--show", asked.show)):
         if given and "vectors" not in chosen:
             drawn = f"only {', '.join(chosen)} {'is' if len(chosen) == 1 else 'are'} drawn"
-            message = f"{key} {given} is for the sheet vectors; {drawn}"
+            message = f"{key} {given} applies only to the sheet vectors; {drawn}"
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=key)])
     if at:
         from gearlink.cli.views.figures.sheets.vector_sheet import beyond
@@ -172,14 +172,14 @@ def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale 
     if scale is None:
         message = "--paper without --scale\ngive --scale 1, or 1:2"
     elif not names or any(name.rpartition("-")[0] != "drawing" and name != "drawing" for name in names):
-        message = "--scale is for drawings of cams alone\nname the sheet drawing, or drawing-1"
+        message = "--scale applies only to drawings of cams\nname the sheet drawing, or drawing-1"
     else:
         one, _, reduction = scale.partition(":")
         with suppress(ValueError):
             value = float(reduction or "1")
             if one == "1" and 0.01 <= value <= 1000.0:
                 return Scale(value, paper or "")
-        message = f"--scale {scale} is no scale\ngive 1, or 1:2 for half the size (1:N, N from 0.01 to 1000)"
+        message = f"--scale {scale} is not a scale\ngive 1, or 1:2 for half the size (1:N, N from 0.01 to 1000)"
     raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--scale" if scale else "--paper")])
 
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from gearlink.core.base.kind import Kind
 
 _ROUNDS = 8
-_NONE_FOUND = "none found with which every check passes"
+_NONE_FOUND = "no change found with which every check passes"
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,9 @@ def run_suggested(command: str, source: str, options: Options) -> int:
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
         spec = read_spec(loaded, kind, source)
-        with progress(_ROUNDS, f"seeking changes with which {spec.name} holds", quiet=options.quiet) as advance:
+        with progress(
+            _ROUNDS, f"searching for changes with which all checks of {spec.name} pass", quiet=options.quiet
+        ) as advance:
             repaired, changes = repair(kind, command, spec, strict=options.strict, advance=advance)
             design, report = build(loaded, kind, command, repaired, options, key_tables=options.brief)
         if options.save is not None:

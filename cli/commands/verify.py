@@ -309,7 +309,7 @@ def report_of(outcomes: Sequence[Outcome]) -> Verification:
     """Counts, and a row for each number."""
     counts = {
         "cases": (len({each.case.id for each in outcomes}), "cases that were computed"),
-        "numbers": (len(outcomes), "published numbers in them"),
+        "numbers": (len(outcomes), "published numbers in these cases"),
         "met": (sum(each.met for each in outcomes), "numbers within their limit"),
     }
     columns: dict[str, Sequence[object]] = {
@@ -391,7 +391,7 @@ def as_text(outcomes: Sequence[Outcome], *, everything: bool = False) -> str:
     for source, group in groupby(outcomes, key=lambda each: each.case.source):
         lines += [hanging(source), *_cases(list(group), column, everything), ""]
     met = sum(each.met for each in outcomes)
-    return "\n".join([*lines, f"{met} of {len(outcomes)} numbers met"])
+    return "\n".join([*lines, f"{met} of {len(outcomes)} numbers within their limit"])
 
 
 def _cases(outcomes: Sequence[Outcome], column: int, everything: bool) -> Iterator[str]:

@@ -254,7 +254,7 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
         return show_refusal(error, source, options)
     board, path, sheets = Board(), Path(source), Remembered()
     if not source or _stamp(path) is None:
-        wrong = Diagnostic("GL101", "no such file; watch begins with one that is there", source)
+        wrong = Diagnostic("GL101", "no such file; watch needs an existing file", source)
         return show_refusal(DesignFileError([wrong]), source, options)
     if path.is_dir():
         wrong = Diagnostic("GL101", "this is a folder; watch shows one design file", source)

@@ -427,7 +427,7 @@ def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
     if missing:
         text = f"{missing} of {made.chunks} chunks are missing: continue with the study file, --store and --resume"
         raise CannotStore("GL159", text)
-    with patience("putting the designs together", quiet=asked.options.quiet):
+    with patience("combining the designs", quiet=asked.options.quiet):
         found = Found.of(made, together(made, chunks_of(kept, made)))
     if asked.show:
         return show(made, found, asked.show)
@@ -514,10 +514,10 @@ def _below(study: Exploration) -> list[str]:
     lines = []
     if study.kept > study.shown:
         lines.append(
-            f"{study.shown} of {amount(study.kept, 'row')}, far from each other; coarsen the resolutions, or use csv"
+            f"{study.shown} of {amount(study.kept, 'row')}, chosen far from each other; use coarser resolutions, or csv"
         )
     if study.knee is not None:
-        lines.append("* knee: the minimum sum of objectives scaled to the front; a mark, no verdict")
+        lines.append("* knee: design with the minimum sum of the objectives, scaled over the front")
     lines.append("--show INDEX prints a design's file, --write DIR writes all kept ones")
     return lines
 

@@ -105,14 +105,14 @@ class Store:
         if not tables:
             return {}
         if not {"meta", "chunk"} <= tables:
-            raise CannotStore("GL159", f"{self._path} is a database of something else", _ANOTHER)
+            raise CannotStore("GL159", f"{self._path} is another kind of database", _ANOTHER)
         found = dict(self._connection.execute("SELECT key, value FROM meta"))
         checksum = found.pop(_CHECKSUM, None)
         if found.get("schema") == "1":
             message = f"{self._path} was written by an earlier gearlink, whose stores have no checksums"
             raise CannotStore("GL158", message, _ANEW)
         if checksum != _checksum_of_meta(found):
-            raise damaged(self._path, "what it says of its study")
+            raise damaged(self._path, "its description of the study")
         if found["schema"] != _FORMAT:
             message = f"{self._path} was written by gearlink {found.get('gearlink')}: its format is {found['schema']}"
             raise CannotStore("GL158", f"{message}, this one reads {_FORMAT}", _ANEW)
@@ -207,7 +207,7 @@ def _refused(path: Path, error: sqlite3.Error) -> CannotStore:
     if "locked" in words:
         return CannotStore("GL159", f"{path} is in use by another run", "wait for its end, or give another --store")
     if "not a database" in words:
-        return CannotStore("GL159", f"{path} is no store: {words}", _ANOTHER)
+        return CannotStore("GL159", f"{path} is not a store: {words}", _ANOTHER)
     if "malformed" in words or "no such" in words:
         return damaged(path, f"the database ({words})")
     return CannotStore("GL116", f"cannot write {path}: {words}", _ANOTHER)
@@ -278,7 +278,7 @@ def same_study(path: Path, meta: dict[str, str], problem: Problem) -> None:
         raise CannotStore("GL157", message, _ANOTHER)
     for name, was, now in others(meta):
         message = f"{path} was begun with {name} {was}; this is {now}"
-        raise CannotStore("GL158", message, "continue it where it was begun, or give another --store")
+        raise CannotStore("GL158", message, "continue with the installation that began it, or give another --store")
 
 
 def others(meta: Mapping[str, str]) -> list[tuple[str, str, str]]:
@@ -317,7 +317,7 @@ def problem_in(store: Store) -> Problem:
         return made.named(meta["name"])
     if not others(meta):
         raise damaged(store._path, "the study")
-    raise of_another_program(store._path, meta, "this one does not read its study as that did")
+    raise of_another_program(store._path, meta, "this version reads its study differently")
 
 
 def chunks_of(kept: Kept, problem: Problem) -> Iterator[Chunk]:
@@ -344,7 +344,7 @@ def chunks_of(kept: Kept, problem: Problem) -> Iterator[Chunk]:
 def damaged(path: Path | None, what: str) -> CannotStore:
     """The refusal of a store whose content is not what was written."""
     return CannotStore(
-        "GL159", f"{'the store' if path is None else path} is damaged: {what} is not what was written", _ANEW
+        "GL159", f"{'the store' if path is None else path} is damaged: {what} does not match its checksum", _ANEW
     )
 
 

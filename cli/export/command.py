@@ -150,7 +150,7 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
     if not made:
         pins = any(line.layer == "PIN_CIRCLE" for contour in contours[CurveForm.SPLINE] for line in contour.lines)
         words = "a circle of pins" if pins else "a path"
-        raise GearlinkError(f"{words} is no solid\ngive --as dxf, svg or csv")
+        raise GearlinkError(f"{words} is not a solid\ngive --as dxf, svg or csv")
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
 
@@ -225,7 +225,7 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
         return made, f"{points} points of {len(design.contour.lines)} lines"
     if form is FileFormat.CSV:
         return _csv(design), f"{points} points of {len(design.contour.lines)} lines"
-    raise NoContourFile(f"the blocking contour is no profile for {form}\ngive --as svg or --as csv")
+    raise NoContourFile(f"the blocking contour cannot be written as {form}\ngive --as svg or --as csv")
 
 
 def _csv(design: Any) -> bytes:

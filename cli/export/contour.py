@@ -266,9 +266,9 @@ def _remedy(part: Part, tolerance: float, form: CurveForm) -> str:
             _sampled(part, coarser, form, MOST_POINTS)
             return f"raise --tolerance to {coarser:g}"
     if not part.teeth:
-        return f"no tolerance up to {MOST_TOLERANCE:g} mm does for a part of this size"
+        return f"no tolerance up to {MOST_TOLERANCE:g} mm is sufficient for a part of this size"
     least = sum(_steps(piece) for piece in _sampled(part, MOST_TOLERANCE, form, MOST_POINTS * part.teeth))
-    other = "" if form is CurveForm.POLYLINE else ", or take --curve polyline"
+    other = "" if form is CurveForm.POLYLINE else ", or use --curve polyline"
     return f"a file holds a gear of at most {MOST_POINTS // least} teeth{other}"
 
 

@@ -110,7 +110,7 @@ def _ezdxf() -> Iterator[Any]:
         with without_notes("ezdxf"), _home_that_can_be_read():
             ezdxf: Any = import_module("ezdxf")
     except ImportError as error:
-        raise NoDxf("DXF needs the library ezdxf: pip install ezdxf, or take --as svg or csv") from error
+        raise NoDxf("DXF needs the library ezdxf: pip install ezdxf, or use --as svg or csv") from error
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
     try:

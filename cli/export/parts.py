@@ -341,7 +341,7 @@ def three_gears(design: Any) -> Makers:
     return {"gear1": first["gear1"], "gear3": idler, "gear5": second["gear5"]}
 
 
-_OF_MATE = ("teeth of the mating gear", "centre distance", "its allowance, plus and minus")
+_OF_MATE = ("teeth of the mating gear", "centre distance", "centre distance allowance, plus and minus")
 """Lines of a gear's table that it has for each of its mates."""
 
 
@@ -535,7 +535,7 @@ def ring_of(mesh: GearPair, rim: float, name: str, title: str, width: float | No
 
 def _ring_notes(mesh: GearPair, shape: RingProfile, rim: float) -> tuple[str, ...]:
     section = "; transverse section" if shape.helical else ""
-    root = "involute down to the root circle; the fillet there is the cutter's, which the file does not name"
+    root = "involute down to the root circle; the fillet depends on the cutter, which the file does not give"
     if shape.shaped is not None:
         cutter = shape.shaped.cutter
         root = (
@@ -546,7 +546,7 @@ def _ring_notes(mesh: GearPair, shape: RingProfile, rim: float) -> tuple[str, ..
         f"module {mesh.module:g} mm, ring of {shape.teeth} teeth, profile shift {shape.shift:.9g} (ISO 21771 sign)",
         f"tip radius {shape.tip:.9g} mm, root radius {shape.deepest:.9g} mm, outer radius {rim:.9g} mm",
         root,
-        "no backlash: thin the teeth by the allowance that the drawing gives",
+        "no backlash: reduce the tooth thickness by the allowance of the drawing",
         "frame: gear axis at the origin, middle of a tooth space on the x axis; the body lies outside the profile"
         + section,
     )
@@ -614,7 +614,7 @@ def _rack_notes(rack: RackMesh, profile: RackProfile, teeth: int, low: float, ha
         f"{-low:.9g} mm below it; tooth and space equal on the datum line",
         f"root left by a tool with a tip rounding of {profile.tool.rounding:.6g} module",
         f"axis of the gear {rack.center_distance:.9g} mm above the datum line",
-        "no backlash: thin the teeth by the allowance that the drawing gives",
+        "no backlash: reduce the tooth thickness by the allowance of the drawing",
         f"frame: datum line on the x axis, the middle of the rack at the origin, teeth up{section}",
     )
 
@@ -638,7 +638,7 @@ def _notes(pair: GearPair, number: int, profile: ToothProfile, hand: str) -> tup
         f"tooth thickness on the reference circle (normal section) {pair.tooth_thickness[number]:.9g} mm",
         f"root cut by a rack tool with a tip rounding of {profile.tool_rounding:.6g} module; involute from "
         f"radius {profile.form_radius:.9g} mm" + (", undercut" if profile.undercut else ""),
-        "no backlash: thin the teeth by the allowance that the drawing gives",
+        "no backlash: reduce the tooth thickness by the allowance of the drawing",
         f"frame: gear axis at the origin, middle of a tooth space on the x axis{section}",
     ]
     return tuple(notes)
@@ -683,9 +683,9 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
         notes=(
             f"{amount(groups, 'group')} of {amount(count, 'tooth', 'teeth')}, {design.full_teeth} teeth without gaps; "
             f"module {mesh.module:g} mm",
-            f"first and last tooth of a group cut to radius {cut:.6g} mm, so that they pass the resting gear",
-            "the locking arcs that hold the driven gear, and an entry tooth that takes up its speed, are omitted",
-            "no backlash: thin the teeth by the allowance that the drawing gives",
+            f"first and last tooth of a group cut to radius {cut:.6g} mm, so that they clear the gear at rest",
+            "the locking arcs that hold the driven gear, and an entry tooth, are omitted",
+            "no backlash: reduce the tooth thickness by the allowance of the drawing",
             "frame: wheel axis at the origin, middle of a gap on the x axis",
         ),
         width=width,
@@ -933,7 +933,7 @@ def _swing_notes(cam: AnyCam, mirror: bool) -> tuple[str, ...]:
     return (
         f"roller radius {cam.roller_radius:.9g} mm, centre distance {cam.center_distance:.9g} mm, "
         f"rocker radius {cam.rocker_radius:.9g} mm",
-        f"open profile: the body lies {body} it; how it closes through hub and rim is the designer's choice",
+        f"open profile: the body lies {body} it; hub and rim are to be designed",
         f"profile given for k = {first:.9g} to {start:.9g} and {end:.9g} to {last:.9g}; between them the roller at "
         "mid-swing cuts its own circle (layer ROLLER_AT_MID_SWING)",
         "frame: cam axis at the origin, mid-swing on the x axis" + ("; mirror image of main_cam" if mirror else ""),
@@ -1013,7 +1013,7 @@ def geneva_wheel(design: Any) -> Part:
     if locking is not None:
         arcs = f"locking arcs of radius {locking + spec.locking_clearance:.9g} mm about the crank's axis in the dwell"
         arcs += f", {_wider(spec.locking_clearance, 'the disc')}"
-    form = "inner contour, the body lies outside it; the rim is the designer's choice" if inner else "outer contour"
+    form = "inner contour, the body lies outside it; the rim is to be designed" if inner else "outer contour"
     return Part(
         name="wheel",
         title=f"{'internal ' if inner else ''}wheel of {spec.slots} slots",

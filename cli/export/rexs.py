@@ -235,9 +235,7 @@ class _Mesh:
 def _meshes(design: Any) -> Iterator[_Mesh]:
     """Every mesh of a design."""
     if getattr(design.spec, "rack", False):
-        raise NoSolution(
-            "the data model of REXS 1.7 has no rack", key="teeth[1]", fix="take --as dxf, svg, csv or step"
-        )
+        raise NoSolution("the data model of REXS 1.7 has no rack", key="teeth[1]", fix="use --as dxf, svg, csv or step")
     names = KINDS[design.kind].rexs
     if names is None:
         return

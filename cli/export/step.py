@@ -112,7 +112,7 @@ class _Occ:
         try:
             import_module("OCP")
         except ImportError as error:
-            raise NoStep("STEP needs the library cadquery-ocp: pip install cadquery-ocp, or take --as dxf") from error
+            raise NoStep("STEP needs the library cadquery-ocp: pip install cadquery-ocp, or use --as dxf") from error
         messenger = _static(self.Message.Message, "DefaultMessenger")()
         for printer in list(messenger.Printers()):  # it reports every transfer on standard output
             messenger.RemovePrinter(printer)

@@ -212,7 +212,7 @@ def _given(pool: Executor, function: Callable[[int], Any], numbers: Sequence[int
                 watch.share()
             watch.show()
     except BrokenExecutor as error:
-        print(f"a worker ended ({error}); the shares that are missing are computed here", file=sys.stderr)
+        print(f"a worker ended ({error}); the missing shares are computed here", file=sys.stderr)
     missing = [number for number in numbers if number not in found]
     found.update(zip(missing, _here(function, missing, watch), strict=True))
     return [found[number] for number in numbers]
@@ -238,8 +238,8 @@ def client(address: str) -> Iterator[Any]:
     except (OSError, ValueError) as error:
         raise _refused("GL115", f"no Dask scheduler answers at {address}: {error}", address) from None
     except Exception as error:  # what another server says is no message of Dask: MemoryError for its size, and others
-        message = f"what answers at {address} is no Dask scheduler ({type(error).__name__})"
-        remedy = "`dask scheduler` prints the address; that of its dashboard is another"
+        message = f"the server at {address} is not a Dask scheduler ({type(error).__name__})"
+        remedy = "`dask scheduler` prints the address; the address of its dashboard is a different one"
         raise _refused("GL115", message, address, remedy) from None
     with made:
         own = program()

@@ -27,7 +27,7 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
     else:
         path = base_path(loaded.file, spec.of)
         if not path.name.endswith(ENDINGS):
-            message = f"the base design {path} is no design file ({', '.join(ENDINGS)})"
+            message = f"the base design {path} is not a design file ({', '.join(ENDINGS)})"
             raise DesignFileError([loaded.report("GL101", message, ("of",))])
         try:
             base = load(str(path))
@@ -43,7 +43,7 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
     except DesignFileError as error:
         below = "" if spec.of is not None else "design."
         if spec.of is None and isinstance(base.data, dict) and set(base.data) == {"of"}:
-            message = "'of' stands instead of design, not in it"
+            message = "'of' replaces design and cannot be inside it"
             remedy = f"write of: {base.data['of']} without design:"
             raise DesignFileError(
                 [loaded.report("GL156", message, ("design", "of"), key="design.of", help=remedy)]

@@ -53,7 +53,7 @@ def load(
         message = "a named pipe is not read\ngive - and the pipe as standard input"
         raise DesignFileError([Diagnostic("GL101", message, name)])
     if target := astray(name):
-        message = f"a link to {target}, which is no design file ({', '.join(ENDINGS)})"
+        message = f"a link to {target}, which is not a design file ({', '.join(ENDINGS)})"
         raise DesignFileError([Diagnostic("GL101", message, name)])
     return parse(read_at_most(source, MAX_BYTES + 1, stdin), name, overrides=overrides)
 
@@ -138,7 +138,7 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
         raise DesignFileError([*loaded.problems, wrong])
     if kind == "study":
         wrong = loaded.report(
-            "GL109", "a study is no design", ("kind",), help="name a design; `gearlink explore` runs studies"
+            "GL109", "a study is not a design", ("kind",), help="name a design; `gearlink explore` runs studies"
         )
         raise DesignFileError([*loaded.problems, wrong])
     from difflib import get_close_matches
@@ -294,7 +294,7 @@ def _of_file(loaded: LoadedFile, path: KeyPath, of: str, put_over: dict[str, Any
     """The data of the file that a member names, with what `--set` puts over it."""
     place = base_path(loaded.file, of)
     if not place.name.endswith(ENDINGS):
-        message = f"the member {place} is no design file ({', '.join(ENDINGS)})"
+        message = f"the member {place} is not a design file ({', '.join(ENDINGS)})"
         raise DesignFileError([loaded.report("GL101", message, (*path, "of"))])
     try:
         found = load(str(place))
@@ -449,7 +449,7 @@ def _no_size(loaded: LoadedFile, model: type[Model], path: KeyPath, value: float
         return loaded.report("GL108", f"{key} is not a finite number", path, help="give a finite number")
     from gearlink.cli.reading.model_shapes import allowed_numbers
 
-    message = f"{key} is {value:g}, which is no number of a machine"
+    message = f"{key} is {value:g}, which no machine can have"
     allowed = allowed_numbers(model, path, loaded.data, LEAST_SIZE, LARGEST_SIZE)
     return loaded.report("GL108", message, path, help=f"allowed: {allowed}" if allowed else "")
 
@@ -476,14 +476,14 @@ def _override(argument: str | Keyed) -> Override:
     path = parse_path(name.strip())
     if not sign or path is None:
         remedy = "write path=value, such as gears.crank=42 or teeth[1]=20"
-        message = "no '=' after the path" if not sign else f"{name!r} is no key path"
+        message = "no '=' after the path" if not sign else f"{name!r} is not a key path"
         if sign and (quoted := _quoted(name.strip())):
-            remedy = f"quote a name that is no word: --set '{quoted}={text[:40]}'"
+            remedy = f"quote a name that is not a word: --set '{quoted}={text[:40]}'"
         raise DesignFileError([source.report("GL114", message, 0, key=name.strip()[:100], help=remedy)])
     if len(argument) > MAX_BYTES or len(path) > MAX_DEPTH:
         raise DesignFileError([source.report("GL110", "too long or too deep", 0, key=name.strip()[:100])])
     if control := CONTROL.search(argument):
-        message = f"character {control[0]!r} is no text"
+        message = f"character {control[0]!r} is not text"
         raise DesignFileError([source.report("GL114", message, control.start(), key=format_path(path))])
     text = text.strip()
     if text[:1] not in ("[", "{", '"', "'"):
@@ -601,7 +601,7 @@ def _columns(loaded: LoadedFile, node: dict[str, Any], path: KeyPath) -> tuple[i
     """The columns of a file that count, from 1."""
     given = node.get("columns", [1, 2])
     if not (isinstance(given, list) and len(given) == 2 and all(type(each) is int and each > 0 for each in given)):
-        message = "columns takes the numbers of two columns, from 1"
+        message = "columns must be the numbers of two columns, counted from 1"
         raise DesignFileError([loaded.report("GL107", message, (*path, "columns"), help="write columns: [1, 2]")])
     return given[0], given[1]
 
@@ -618,7 +618,7 @@ def _points(loaded: LoadedFile, name: str, path: KeyPath, columns: tuple[int, in
         message = f"cannot read {place}: {error.strerror or error}"
         raise DesignFileError([loaded.report("GL101", message, path, help=nearest_file(str(place)))]) from None
     except UnicodeDecodeError:
-        message = f"{name} is no text in UTF-8"
+        message = f"{name} is not a text in UTF-8"
         raise DesignFileError([loaded.report("GL182", message, path, help="save it as CSV in UTF-8")]) from None
     note(place, content)
     return rows_of(Source(str(place), text), columns)
@@ -649,7 +649,7 @@ def rows_of(source: Source, columns: tuple[int, int] | None = None) -> list[list
             bad = chosen[values.index(None)] if None in values else min(2, len(cells))
             at = source.line_start(number) + len(delimiter.join(cells[:bad])) + (bad > 0)
             count = f"{len(cells)} numbers in a row" if columns is None else f"no column {max(columns)} in a row"
-            what = f"{cells[bad].strip()!r} is no number" if None in values else count
+            what = f"{cells[bad].strip()!r} is not a number" if None in values else count
             fix = "give two numbers a row, with a delimiter between them, or name two of the columns"
             raise DesignFileError([source.report("GL182", what, min(at, len(source.text)), help=fix)])
         rows.append([value for value in values if value is not None])

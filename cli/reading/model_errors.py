@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # Words for values that a design file gives and for those that it should give
 
-NO_UNIT = "no unit goes here"
+NO_UNIT = "a unit is not allowed here"
 
 
 def without_unit(number: str, written: str, unit: str) -> str:
@@ -39,7 +39,7 @@ def without_unit(number: str, written: str, unit: str) -> str:
         unit : str - of the key; empty where it is not known
     Example
         >>> without_unit("40", "teeth", "teeth"), without_unit("5", "deg", "teeth")
-        ('no unit goes here: write 40', 'no unit goes here, this key is in teeth')
+        ('a unit is not allowed here: write 40', 'a unit is not allowed here, this key is in teeth')
     """
     if unit in ("", written):
         return f"{NO_UNIT}: write {number}"
@@ -131,15 +131,15 @@ def number_remedy(text: str, unit: str = "") -> str:
         unit : str - of the key, where it has one
     Example
         >>> number_remedy("38,8"), number_remedy("5 teeth")
-        ('write a decimal point: 38.8', 'no unit goes here: write 5')
+        ('write a decimal point: 38.8', 'a unit is not allowed here: write 5')
         >>> number_remedy("25.4/12", "mm"), number_remedy("DP12", "mm")
-        ('write 2.116666667', 'a diametral pitch counts teeth in an inch: write 2.116666667 (mm)')
+        ('write 2.116666667', 'a diametral pitch is teeth per inch of diameter: write 2.116666667 (mm)')
     """
     text = text[:200].strip(" ")
     if isinstance(plain_value(text), (int, float)):
-        return "leave the quotation marks out"
+        return "omit the quotation marks"
     if re.fullmatch(r"[-+]?[1-9][0-9]{0,2},[0-9]{3}", text):
-        return f"write {text.replace(',', '.')}, or {text.replace(',', '')} where the comma parts thousands"
+        return f"write {text.replace(',', '.')}, or {text.replace(',', '')} if the comma separates thousands"
     if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", text):
         return f"write a decimal point: {text.replace(',', '.')}"
     if re.fullmatch(r"[-+]?[0-9.]+(:[-+]?[0-9.]+){2}", text):
@@ -156,7 +156,7 @@ def number_remedy(text: str, unit: str = "") -> str:
     if text[:1] in DASHES:
         return f"it holds {odd_character(text[0])}: write -"
     if re.fullmatch(rf"{_NUMBER}((\s+|\s*;\s*){_NUMBER})+", text):
-        return f"commas part the elements of a list: {', '.join(text.replace(';', ' ').split())}"
+        return f"separate the elements of a list by commas: {', '.join(text.replace(';', ' ').split())}"
     if re.fullmatch(rf"{_NUMBER}[,;]", text):
         return f"write {text[:-1]}"
     if unit == "deg" and (parts := _SEXAGESIMAL.fullmatch(text)):
@@ -172,7 +172,7 @@ def number_remedy(text: str, unit: str = "") -> str:
     if quotient := re.fullmatch(rf"({_NUMBER})\s*/\s*({_NUMBER})", text):
         return _quotient(float(quotient[1]), float(quotient[2]))
     if unit == "mm" and (pitch := re.fullmatch(rf"DP\s*({_NUMBER})|({_NUMBER})\s*DP", text, re.IGNORECASE)):
-        return f"a diametral pitch counts teeth in an inch: {_quotient(_INCH, float(pitch[1] or pitch[2]))} (mm)"
+        return f"a diametral pitch is teeth per inch of diameter: {_quotient(_INCH, float(pitch[1] or pitch[2]))} (mm)"
     found = _WITH_UNIT.fullmatch(text)
     return without_unit(found[1], found[2], unit) if found else ""
 
@@ -416,12 +416,12 @@ class _Wording:
     def _unknown_remedy(self, key: str, parent: KeyPath, value: Any, allowed: list[str]) -> str:
         name, colon, rest = key.partition(":")
         if colon and name in allowed:
-            return f"a space belongs after the colon: '{name}: {rest[:40].strip()}'"
+            return f"a space is required after the colon: '{name}: {rest[:40].strip()}'"
         if value is None and re.fullmatch(r"[0-9]+", key):
-            return "a comma separates entries: write decimals with a point"
+            return "commas separate entries: write decimals with a point"
         if parent[:2] == ("tolerance", "sources") and len(parent) == 3 and isinstance(value, dict):
             source = f"{parent[2]}.{key}"
-            return f'a source is named by the whole path of its key: {source}, with --set "{source}" in quotation marks'
+            return f'a source is named by the full path of its key: {source}, with --set "{source}" in quotation marks'
         if (meaning := self._meaning(key, parent, allowed)) is not None:
             from gearlink.cli.glossary import hint
 

@@ -124,9 +124,9 @@ def wrong_unit(written: str, unit: str, key: str) -> tuple[str, str, str]:
         ('GL181', 'kg is a mass, stroke is in mm')
     """
     taken = list(_factors(unit))
-    listed = f"it takes {', '.join(taken)}"
+    listed = f"allowed units: {', '.join(taken)}"
     if written == _PITCH:
-        return "GL181", f"a diametral pitch goes with module, {key} is in {unit}", listed
+        return "GL181", f"a diametral pitch applies only to module; {key} is in {unit}", listed
     others = [name for name, names in UNITS.items() if written in names]
     if others:
         return "GL181", f"{written} is {_WORDS[others[0]]}, {key} is {_measured(unit)}", listed

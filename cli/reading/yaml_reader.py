@@ -70,12 +70,12 @@ def read(data: bytes, file: str) -> Tree:
         DesignFileError - GL102 encoding, GL103 not YAML or not a mapping, GL110 too large or too deep
     """
     if len(data) > MAX_BYTES:
-        message = f"larger than {MAX_BYTES >> 20} MiB: this is no design file"
+        message = f"larger than {MAX_BYTES >> 20} MiB: this is not a design file"
         raise DesignFileError([Diagnostic("GL110", message, file)])
     source = decode(data, file)
     if directive := _DIRECTIVE.match(source.text):
         at = directive.end() - 1
-        raise _fatal(source, "GL103", "directives are not taken", at, help="leave the line with '%' out")
+        raise _fatal(source, "GL103", "directives are not supported", at, help="delete the line with '%'")
     tree = compose(source)
     if not isinstance(tree.data, dict):
         raise DesignFileError([_no_mapping(tree)])
@@ -103,7 +103,7 @@ def decode(data: bytes, file: str) -> Source:
         char = control[0]
         what = "a NUL byte" if char == "\0" else f"control character U+{ord(char):04X}"
         remedy = "save the file as UTF-8" if char == "\0" else "delete it"
-        raise _fatal(source, "GL102", f"{what}: this is no plain text", control.start(), help=remedy)
+        raise _fatal(source, "GL102", f"{what}: this is not plain text", control.start(), help=remedy)
     return source
 
 
@@ -250,7 +250,7 @@ class _Composer:
         known = self._anchors.get(event.anchor)
         if known is None:
             inside = event.anchor in self._anchors
-            message = "an alias inside of its own value" if inside else f"no anchor '&{event.anchor}' above"
+            message = "an alias inside its own value" if inside else f"no anchor '&{event.anchor}' above"
             raise _fatal(self.source, "GL103", message, at, help="put text that begins with '*' in quotes")
         value, marks, nodes, height = known
         if self._awaits_key():
@@ -316,7 +316,7 @@ class _Composer:
         elif not (key.isascii() and key.isprintable()):
             self._look_for_odd(key, at)
         elif key == "<<" and event.implicit[0]:
-            self._note("merge keys ('<<') are no part of YAML 1.2", at, "write the keys out")
+            self._note("merge keys ('<<') are not part of YAML 1.2", at, "write the keys out")
         elif not key:
             self._note("a key is missing before the colon", at, "write the key, a colon, a space, the value")
 
@@ -331,7 +331,7 @@ class _Composer:
     def _no_tag(self, event: Any, at: int) -> None:
         if event.tag is not None:
             remedy = "write 2 for a number, true or false, '2' in quotes for text"
-            self._note(f"tags such as {_short(event.tag)} are not taken", at, remedy)
+            self._note(f"tags such as {_short(event.tag)} are not supported", at, remedy)
 
     def _note(self, message: str, at: int, remedy: str) -> None:
         self._wrong.append(self.source.report("GL103", message, at, help=remedy))
@@ -352,7 +352,7 @@ class _Composer:
             if odd := hidden_culprit(self.source, rest, 0):
                 raise DesignFileError([odd])
         second = text.startswith("---", rest) or end != at
-        message = "a second document begins: a design file holds one" if second else "text after the end of the data"
+        message = "a second document begins: a design file has only one" if second else "text after the end of the data"
         raise _fatal(self.source, "GL103", message, rest, help="delete it, or make it a file of its own")
 
 
@@ -377,7 +377,7 @@ def _no_mapping(tree: Tree) -> Diagnostic:
     source, data = tree.source, tree.data
     if data is None:
         remedy = "`gearlink new KIND` prints a template"
-        return source.report("GL103", "the file is empty: it holds no design", tree.at, help=remedy)
+        return source.report("GL103", "the file is empty: it contains no design", tree.at, help=remedy)
     if isinstance(data, str):
         from gearlink.cli.reading.yaml_remedies import hidden_culprit
 

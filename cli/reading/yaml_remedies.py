@@ -17,7 +17,7 @@ _SEARCHED_LINES = 3
 _SHOWN = 40
 _LONGEST_KEY = 1024  # of a key without '? ', by the YAML specification (7.4.3, 8.2.2)
 
-_ALIKE = "indent all keys of one section by the same number of spaces; put text that holds ': ' in quotes"
+_ALIKE = "indent all keys of one section by the same number of spaces; put text that contains ': ' in quotes"
 _TAB = "indent with spaces"
 _WORDING = (
     (
@@ -30,7 +30,7 @@ _WORDING = (
         "no 'key: value': the colon is missing",
         "write the key, a colon, a space, the value",
     ),
-    (r"expected key|expected <block end>|expected '-' indicator", "the indentation fits no section above", _ALIKE),
+    (r"expected key|expected <block end>|expected '-' indicator", "the indentation matches no section above", _ALIKE),
     (
         r"escape",
         "an escape in double quotes that YAML does not know",
@@ -94,7 +94,7 @@ def syntax_error(source: Source, base: int, error: YAMLError) -> Diagnostic:
             return source.report("GL103", message, at, help=f"write '- {entry[1]}'{negative}")
     if "end of stream" in problem:
         return source.report(
-            "GL103", "a quotation mark that is never closed", opened, help="write it at the end of the text as well"
+            "GL103", "a quotation mark is not closed", opened, help="write it at the end of the text as well"
         )
     if re.search(r"expected ',' or|expected ',', '", problem):
         return _unclosed(source, at, opened)
@@ -137,7 +137,7 @@ def _long_key(source: Source, at: int, opened: int) -> Diagnostic | None:
     if len(key) - first <= _LONGEST_KEY:
         return None
     message = f"a key of {len(key) - first} characters: YAML takes {_LONGEST_KEY}"
-    return source.report("GL103", message, start + first, help="shorten it; put text that holds ': ' in quotes")
+    return source.report("GL103", message, start + first, help="shorten it; put text that contains ': ' in quotes")
 
 
 def _unclosed(source: Source, at: int, opened: int) -> Diagnostic:

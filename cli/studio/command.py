@@ -71,7 +71,7 @@ def _opened(source: str) -> Document:
     if source == "-":
         raise DesignFileError([Diagnostic("GL115", "studio needs a file, not standard input", "<command line>")])
     if not source or not Path(source).exists():
-        raise DesignFileError([Diagnostic("GL101", "no such file; studio begins with one that is there", source)])
+        raise DesignFileError([Diagnostic("GL101", "no such file; studio needs an existing file", source)])
     if Path(source).is_dir():
         raise DesignFileError([Diagnostic("GL101", "this is a folder; studio shows one design file", source)])
     from gearlink.cli.studio.text import Document
@@ -88,7 +88,7 @@ def _refuse_study(text: str, source: str) -> None:
     except DesignFileError:
         return
     if kind not in KINDS:
-        message = f"a {kind} searches many designs and has no numbers of one: open a design that it found"
+        message = f"a {kind} searches many designs and has no values of its own: open a design that it found"
         raise DesignFileError([loaded.report("GL113", message, ("kind",))])
 
 

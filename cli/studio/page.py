@@ -170,7 +170,7 @@ class StudioPage:
                 self._key.props["data-key"] = "wish"
                 self._results = ui.column().classes("w-full gap-0")
                 self._checks = ui.column().classes("w-full gap-0")
-                ui.label("Changed since it was opened").classes("section")
+                ui.label("Changed since the file was opened").classes("section")
                 self._changed = ui.html("nothing", sanitize=False).props("data-changed").classes("w-full")
                 self._drawings = ui.column().classes("w-full")
         ui.on("grip", lambda event: self.session.grip(event.args["which"], event.args["fraction"]))

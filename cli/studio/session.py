@@ -186,7 +186,7 @@ class Session:
             self._each(lambda page: page.say(f"choose the key that may change for {name}"))
             return
         text = self.document.text
-        self._each(lambda page: page.say(f"{name} {target:g}: seeking {key.name}"))
+        self._each(lambda page: page.say(f"{name} {target:g}: searching for {key.name}"))
         try:
             found = await asyncio.to_thread(making.wished, text, str(self.document.path), command, name, target, key)
         except (Refused, CannotPlace) as refused:
@@ -242,7 +242,7 @@ class Session:
             text = await asyncio.to_thread(grip.to, stage.place(complex(*map(float, place[:2]))))
             if self._grip is not None and self._grip[0] is grip:
                 self.put(text, "drag")
-                words = f"the joint goes no farther: {grip.stopped}" if grip.stopped else ""
+                words = f"the joint cannot move farther: {grip.stopped}" if grip.stopped else ""
                 self._each(lambda page: page.say(words))
                 await self._made_once()
         self._each(lambda page: page.answered())

@@ -399,7 +399,7 @@ def _limit(
     """The refusal of a wish, with the nearest that the key can give; `off` is None where the time is over."""
     known = {value: miss for value, miss in seen.items() if miss is not None}
     if not known:
-        return Refused(f"{name}: no value of {key.name} from {key.range[0]:g} to {key.range[1]:g} makes a mechanism")
+        return Refused(f"{name}: no value of {key.name} from {key.range[0]:g} to {key.range[1]:g} gives a mechanism")
     best = min(known, key=lambda value: abs(known[value]))
     places = sorted(seen)
     at = places.index(best)
@@ -420,8 +420,8 @@ def _limit(
     word = "at least" if side > 0.0 else "at most"
     reached = target + known[best]
     return Refused(
-        f"{name} {target:g} cannot be had by {key.name} from {key.range[0]:g} to {key.range[1]:g}: "
-        f"{word} {reached:.6g}, with {key.name} {best:.6g}{tried}"
+        f"{name} {target:g} cannot be reached by {key.name} from {key.range[0]:g} to {key.range[1]:g}: {word} "
+        f"{reached:.6g}, with {key.name} {best:.6g}{tried}"
     )
 
 
@@ -467,7 +467,7 @@ class Grip:
                 self._keys.append(key)
                 columns.append(column)
         if not columns:
-            locked = "every key that moves it is locked" if not keys else "no key that is not locked moves this joint"
+            locked = "every key that moves it is locked" if not keys else "no unlocked key moves this joint"
             raise Refused(locked)
         self._slopes = np.array(columns).T
         self._values = np.array([key.value for key in self._keys])
@@ -492,7 +492,7 @@ class Grip:
         except DesignFileError as error:
             self.stopped = error.diagnostics[0].message
         except LookupError:
-            self.stopped = "the mechanism has no such joint any more"
+            self.stopped = "the mechanism no longer has this joint"
         return None
 
     def to(self, target: complex) -> str:

@@ -63,7 +63,7 @@ def with_values(text: str, values: Iterable[tuple[str, Any]]) -> str:
     for name, value in values:
         path = parse_path(name)
         if path is None:
-            raise CannotPlace(f"{name} is no path of a key")
+            raise CannotPlace(f"{name} is not the path of a key")
         text = with_value(text, path, value)
     return text
 

@@ -16,7 +16,7 @@ FILES: tuple[Rule, ...] = (
         "GL101",
         "file cannot be read",
         "There is no such file or folder, it may not be read, or a folder holds no design file (.yaml, .yml).",
-        "Nothing can be computed without it; a folder given where one file is required is not guessed at.",
+        "Nothing can be computed without the file; where one file is required, none is chosen from a folder.",
         "Check the path. `gearlink batch` and `gearlink check` take folders, all other commands one file, or - for "
         "standard input.",
     ),
@@ -24,7 +24,8 @@ FILES: tuple[Rule, ...] = (
         "GL102",
         "not plain UTF-8 text",
         "The file has another encoding, or holds control characters.",
-        "In another encoding a sign may read as another one, and a hidden character changes a key without being seen.",
+        "In another encoding a character may be read as a different one, and an invisible character changes a key "
+        "unnoticed.",
         "Save the file as UTF-8 without formatting; delete the character at the line and column of the message.",
     ),
     Rule(
@@ -32,8 +33,8 @@ FILES: tuple[Rule, ...] = (
         "not a YAML design",
         "The text breaks the rules of YAML, or is not made of `key: value` lines.",
         "Usual causes: tabs in the indentation, a missing space after a colon, a bracket or quotation mark that is "
-        "never closed, signs that only look like the plain ones, a second document, tags or directives.",
-        "The caret is where reading failed; the cause often lies at the end of the line above. `gearlink new KIND` "
+        "never closed, characters that only look like plain ones, a second document, tags or directives.",
+        "The caret marks where reading failed; the cause often lies at the end of the line above. `gearlink new KIND` "
         "prints a file that works.",
     ),
     Rule(
@@ -41,21 +42,22 @@ FILES: tuple[Rule, ...] = (
         "key given twice",
         "The same key is given twice in one section.",
         "Most readers silently keep the last one; which of the two was meant cannot be known.",
-        "Delete one of the two.",
+        "Delete one of the two lines.",
     ),
     Rule(
         "GL105",
         "unknown key",
         "The section has no such key.",
         "A misspelt key would otherwise be ignored, and the default used instead.",
-        "Take the nearest key of the message; `gearlink schema KIND` lists all of them with units and defaults.",
+        "Use the nearest key, which the message names; `gearlink schema KIND` lists all of them with units and "
+        "defaults.",
     ),
     Rule(
         "GL106",
         "key missing",
         "A key that has no default is missing, or none of several alternatives is given.",
         "Without it the design is not determined.",
-        "Add the key; the message says what it means. `gearlink new KIND` prints a complete file.",
+        "Add the key; the message explains it. `gearlink new KIND` prints a complete file.",
     ),
     Rule(
         "GL107",
@@ -63,36 +65,37 @@ FILES: tuple[Rule, ...] = (
         "A number, a text, a list or a section is given where another of these is required, or a list has a wrong "
         "length.",
         "Numbers in quotation marks are text, 40:20 and no are text in YAML 1.2, and true is no number.",
-        "Write the value as the message says: numbers plain or with a unit, without quotation marks.",
+        "Write the value as the message says: a number plain or with a unit, without quotation marks.",
     ),
     Rule(
         "GL108",
         "value out of range",
         "A number lies outside its range or is not finite, or a word is none of the choices.",
-        "The ranges keep out what no machine has: lengths below zero, angles beyond a turn, pressure angles of 45 deg, "
-        "and any number above 1e12 or, but for 0, below 1e-30 in size.",
-        "Take a value from the allowed range or list of the message. Units are mm, deg, 1/min, sheets/h, N, kg, "
-        "kg m^2 and N m.",
+        "The ranges exclude what no machine has: negative lengths, angles above 360 deg, pressure angles of 45 deg, "
+        "and numbers above 1e12 or, except for 0, below 1e-30 in magnitude.",
+        "Use a value from the allowed range or list in the message. Units are mm, deg, 1/min, sheets/h, N, kg, kg m^2 "
+        "and N m.",
     ),
     Rule(
         "GL109",
         "unknown kind of design",
         "The key `kind` names no kind that gearlink knows.",
         "The kind decides which keys the file has and which commands apply.",
-        "Take one of the kinds in the message; `gearlink explain KIND` says what each is.",
+        "Use one of the kinds in the message; `gearlink explain KIND` says what each is.",
     ),
     Rule(
         "GL110",
-        "too large, or too much",
+        "file too large, or too many errors",
         "The file is too large, nested too deeply or has too many values; or more errors were found than are shown.",
-        "No design needs it; the caps keep a wrong or hostile file from filling the memory.",
-        "Check that it is the right file. Repair the errors that are shown first, the others often follow from them.",
+        "No design needs this size; the limits keep a wrong or malicious file from filling the memory.",
+        "Check that it is the right file. Correct the errors that are shown first; further errors often disappear "
+        "with them.",
     ),
     Rule(
         "GL111",
         "keys contradict each other",
         "Each value is right by itself, but together they are not: two alternatives are given, or a sum does not hold.",
-        "Only one of the two could be used, and nobody would know which.",
+        "Only one of them could be used, and the user would not know which one.",
         "Leave out one of them, or change it by the amount that the message names.",
     ),
     Rule(
@@ -100,46 +103,45 @@ FILES: tuple[Rule, ...] = (
         "no such mechanism",
         "The file is in order, but no mechanism exists for its numbers: a linkage does not close or cannot turn, a "
         "stroke is too long, a law has no solution.",
-        "A result instead would belong to another mechanism.",
+        "Any result would belong to another mechanism.",
         "The message names the value, its limit and the key to change; change that key, or those it depends on.",
         source="the equation that has no solution is named by `gearlink explain` of the quantity",
     ),
     Rule(
         "GL113",
-        "command and file do not fit",
+        "command does not apply to the file",
         "The command does not apply to this kind of design, or needs a section that the file does not have.",
-        "A file holds what its own commands need; the other sections are optional.",
-        "Add the section that the message names (`gearlink schema KIND` shows its keys), or take one of the commands "
+        "A file needs only the sections of the commands that are run; the other sections are optional.",
+        "Add the section that the message names (`gearlink schema KIND` shows its keys), or use one of the commands "
         "that apply.",
     ),
     Rule(
         "GL114",
         "--set cannot be used",
-        "The argument of --set is not of the form PATH=VALUE, or its path leads through something that is no section.",
-        "An override that went nowhere would leave the design as it was, without a word.",
+        "The argument of --set is not of the form PATH=VALUE, or its path leads through a value that is not a section.",
+        "Otherwise the override would change nothing, and the user would not notice.",
         "Write the path as in the messages: gears.crank=42, teeth[1]=20, limits.gear_gap=0.5. Values are YAML.",
     ),
     Rule(
         "GL115",
-        "command line wrong",
+        "error in the command line",
         "An argument or option is unknown, missing or has a wrong value, or names a quantity, table, kind or code that "
         "does not exist.",
         "Nothing was computed.",
-        "Take the nearest name of the message; `gearlink COMMAND --help` lists the options.",
+        "Use the nearest name, which the message gives; `gearlink COMMAND --help` lists the options.",
     ),
     Rule(
         "GL116",
         "file cannot be written",
-        "The folder does not exist and cannot be made, may not be written to, the disk is full, or the file is there "
-        "already.",
-        "Files are written whole or not at all: nothing half-written was left behind.",
+        "The folder does not exist and cannot be made, may not be written to, the disk is full, or the file already "
+        "exists.",
+        "Files are written completely or not at all: no partial file is left.",
         "Give another folder or file with --out; `gearlink new --force` overwrites.",
     ),
     Rule(
         "GL117",
         "cannot be compared",
-        "`gearlink diff` was given two files of different sorts, designs of different kinds, or a JSON file that holds "
-        "no result.",
+        "`gearlink diff` was given a design and a result, designs of different kinds, or a JSON file without a result.",
         "Quantities of different kinds share names, but not meanings.",
         "Give two design files of one kind, or two files written with --format json.",
     ),
@@ -147,7 +149,7 @@ FILES: tuple[Rule, ...] = (
         "GL199",
         "fault of the program",
         "gearlink itself failed on this design; the other designs of a batch were computed.",
-        "This is not the design's fault.",
+        "The design is not the cause.",
         "Please report it with the design file; GEARLINK_TRACEBACK=1 shows where it arose.",
     ),
 )
@@ -166,32 +168,33 @@ STUDIES: tuple[Rule, ...] = (
     Rule(
         "GL151",
         "variable names no key",
-        "A variable, one of its `also`, or what its `times` names is no key of the base design's kind, or no variable "
-        "above it.",
-        "A variable that changed nothing would multiply the designs without a word.",
-        "Take the nearest path of the message; `gearlink schema KIND` lists all of them.",
+        "A variable or an entry of its `also` is not a key of the base design's kind, or its `times` names neither "
+        "such a key nor a variable above it.",
+        "A variable without effect would only multiply the number of designs.",
+        "Use the nearest path, which the message names; `gearlink schema KIND` lists all of them.",
     ),
     Rule(
         "GL152",
-        "quantity or check unknown, or not to be compared",
+        "quantity or check unknown, or not comparable",
         "An objective, a definition or a condition names a quantity that the kind does not have, a list without an "
         "index or a word where a number is needed, or cannot be read; or a check has no such code.",
-        "What cannot be computed cannot be sought.",
-        "Take the nearest name of the message. Expressions have numbers, quantities, [i] (from 0), + - * /, min, max, "
-        "abs, sqrt and brackets.",
+        "A study can optimize and limit only numbers that are computed.",
+        "Use the nearest name, which the message gives. Expressions may have numbers, quantities, [i] (from 0), + - * "
+        "/, min, max, abs, sqrt and brackets.",
     ),
     Rule(
         "GL153",
         "unit differs",
         "A resolution or a limit is given in another unit than its quantity has.",
         "Nothing is converted: a wrong unit would be a wrong limit.",
-        "Give it in the quantity's own unit, or leave the unit out.",
+        "Use the unit of the quantity, or omit the unit.",
     ),
     Rule(
         "GL154",
         "resolution missing",
         "An objective has no resolution above 0.",
-        "The resolution is the difference that you would not pay for; without it a front has as many rows as designs.",
+        "The resolution is the largest difference that does not matter; without it a front has as many rows as "
+        "designs.",
         "Give one, such as `envelope: 10 mm`.",
     ),
     Rule(
@@ -199,45 +202,47 @@ STUDIES: tuple[Rule, ...] = (
         "more designs than the budget",
         "The grid of all variables holds more designs than `sampling.budget`, or a variable has no grid although the "
         "method is `grid`.",
-        "A grid is computed whole or not at all.",
-        "Coarsen the variable of the message, raise the budget, or take the method auto, which samples then.",
+        "A grid is computed completely or not at all.",
+        "Use a coarser grid of the variable in the message, increase the budget, or use the method auto, which then "
+        "samples.",
     ),
     Rule(
         "GL156",
         "base design or value rejected",
         "The base design is wrong or cannot be computed, or its model rejects a value of a variable.",
-        "A study varies a design that exists; each value is tried alone before any design is computed.",
-        "Repair the base, or narrow the variable's range to what its key takes.",
+        "A study varies a design that exists; each value is checked by itself before any design is computed.",
+        "Correct the base design, or narrow the range of the variable to that of its key.",
     ),
     Rule(
         "GL157",
         "store of another study",
         "The store was made for a study that differs from this one in the key of the message.",
         "Its results belong to other designs.",
-        "Give another --store, or put the study back as it was.",
+        "Give another --store, or undo the change of the study.",
     ),
     Rule(
         "GL158",
         "store or worker of another program",
         "The store was made, or a worker runs, with another gearlink (its version or its code), Python, numpy or "
         "scipy, or on another type of processor.",
-        "Last bits of numbers would differ within one result. A finished store is shown nevertheless, with a note.",
-        "Continue where it was begun, or begin a new store.",
+        "Numbers of one result would differ in their last digits. A finished store is still shown, with a note.",
+        "Continue with the installation that began the store, or begin a new store.",
     ),
     Rule(
         "GL159",
         "store exists or is damaged",
-        "The store is there already, and --resume was not given; or it is no store, or in use; or its content is not "
-        "what was written, as its checksums tell.",
-        "Results are never overwritten, and what a disk or a copy has changed is not believed.",
-        "Add --resume to continue it, or give another --store. Put back a copy of a damaged one, or compute it again.",
+        "The store already exists, and --resume was not given; or the file is not a store, or is in use; or its "
+        "checksums do not match its content.",
+        "Results are never overwritten, and damaged data are not used.",
+        "Add --resume to continue it, or give another --store. Restore a damaged store from a copy, or compute it "
+        "again.",
     ),
     Rule(
         "GL160",
         "two methods give different results",
-        "A design of the front has other figures by its own class than in the search.",
+        "A design of the front has other results when it is computed by itself than in the search.",
         "This is a fault of the program, not of the study.",
-        "Please report it with the study; the message has the design and both figures.",
+        "Please report it with the study; the message has the design and both results.",
     ),
 )
 
@@ -247,11 +252,11 @@ STUDIES: tuple[Rule, ...] = (
 TOLERANCES: tuple[Rule, ...] = (
     Rule(
         "GL170",
-        "source is no size of this design",
-        "A source names no key with a real number, no centre distance, pin or gear of this kind of design, or a whole "
-        "number, which does not vary.",
-        "A tolerance on something that the design does not have would change nothing without a word.",
-        "Take a key of the file, such as links.crank, or centers.MESH, pins.PIN, bearings.PIN, gears.GEAR with grade.",
+        "source is not a size of this design",
+        "A source must be a key with a real number, or a centre distance, pin or gear of this kind of design; whole "
+        "numbers do not vary.",
+        "A tolerance on something that the design does not have would have no effect.",
+        "Use a key of the file, such as links.crank, or centers.MESH, pins.PIN, bearings.PIN, gears.GEAR with grade.",
     ),
     Rule(
         "GL171",
@@ -265,7 +270,7 @@ TOLERANCES: tuple[Rule, ...] = (
     Rule(
         "GL172",
         "process capability wrong",
-        "C_pk is above C_p, or below it without saying towards which limit the process lies.",
+        "C_pk is above C_p, or below C_p without `shift`, which says towards which limit the process is shifted.",
         "C_pk = C_p (1 - offset/half width): it is at most C_p.",
         "Give cpk at most cp, and shift: up or down.",
     ),
@@ -274,30 +279,31 @@ TOLERANCES: tuple[Rule, ...] = (
         "not in the tables of ISO 286 or ISO 5753",
         "The tolerance class, fit, grade or clearance group does not exist, or not for this size (ISO 286: to 500 mm; "
         "bearings: bores to 100 mm).",
-        "Nothing is extrapolated from tables.",
-        "Take another class, or give the limits themselves.",
+        "The tables are not extrapolated.",
+        "Use another class, or give the limits directly.",
     ),
     Rule(
         "GL174",
         "not in the range of ISO 1328-1",
-        "The grade, module, diameter or face width lies outside of ISO 1328-1:2013 (grades 1 to 11, modules 0.5 to 70 "
+        "The grade, module, diameter or face width lies outside ISO 1328-1:2013 (grades 1 to 11, modules 0.5 to 70 "
         "mm, diameters 5 to 15000 mm, widths 4 to 1200 mm).",
-        "Nothing is extrapolated.",
-        "Give the eccentricity itself.",
+        "The formulas are not extrapolated.",
+        "Give the eccentricity directly.",
     ),
     Rule(
         "GL175",
         "too many sources",
-        "The sources take more random numbers than 64 (32 with Sobol' indices); a pin takes two.",
-        "Scrambled Sobol' points lose their balance in so many dimensions.",
-        "Leave out the sources with the smallest contributions.",
+        "The sources need more than 64 random numbers (32 with Sobol' indices); a pin needs two.",
+        "Scrambled Sobol' points are no longer evenly distributed in so many dimensions.",
+        "Omit the sources with the smallest contributions.",
     ),
     Rule(
         "GL176",
         "correlations contradict each other",
-        "The correlations of the file make no positive matrix, lie outside -1 to 1, or name what is no source.",
-        "Three parts cannot all vary against each other.",
-        "Correlate what one machine makes in one setting; make rho smaller.",
+        "The correlations of the file do not form a positive matrix, lie outside -1 to 1, or name something that is "
+        "not a source.",
+        "Three parts cannot all vary in opposite directions.",
+        "Correlate only parts that one machine makes in one setting; reduce rho.",
     ),
 )
 
@@ -308,23 +314,24 @@ VALUES: tuple[Rule, ...] = (
     Rule(
         "GL182",
         "unreadable file of numbers",
-        "A file that a key names holds something else than rows of two numbers.",
-        "A cell that is read as another number, or skipped, would bend the curve through the points.",
-        "Save the numbers as CSV: two columns with comma, semicolon or tab between them; words are allowed at the top.",
+        "A file named by a key contains something other than rows of two numbers.",
+        "A cell that is misread or skipped would distort the curve through the points.",
+        "Save the numbers as CSV: two columns with comma, semicolon or tab between them; header lines are allowed.",
     ),
     Rule(
         "GL180",
         "unknown unit",
         "A value is written as NUMBER UNIT, and no unit has that name.",
-        "Read as if it had the key's own unit, the value would be another one.",
-        "Take one of the units that the message lists for this key, or a plain number in the key's own unit.",
+        "A value with an unknown unit cannot be converted.",
+        "Use one of the units that the message lists for this key, or a plain number in the unit of the key.",
     ),
     Rule(
         "GL181",
         "unit of another quantity",
-        "A value is written as NUMBER UNIT, and the unit measures something else than the key does.",
-        "Kilograms are no millimetres; a diametral pitch (DP) is allowed for `module` alone.",
-        "Take one of the units that the message lists for this key, or move the value to the key that it belongs to.",
+        "A value is written as NUMBER UNIT, and the unit belongs to another quantity than the key.",
+        "Only units of one quantity can be converted into each other; a diametral pitch (DP) is allowed for `module` "
+        "alone.",
+        "Use one of the units that the message lists for this key, or move the value to the key that it belongs to.",
     ),
 )
 

@@ -189,5 +189,5 @@ def decimals(published: str) -> int:
     """The power of ten of the last printed digit: -3 of 22.856."""
     exponent = Decimal(published).as_tuple().exponent
     if isinstance(exponent, str):
-        raise ValueError(f"{published} is no number")
+        raise ValueError(f"{published} is not a number")
     return exponent

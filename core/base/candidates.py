@@ -123,4 +123,4 @@ def pairs(one: Iterable[Any], other: Iterable[Any]) -> list[tuple[Any, Any]]:
 
 def nothing_sought(words: str) -> NoSolution:
     """A file that leaves nothing to be found has no candidates."""
-    return NoSolution(f"the file leaves nothing to be found, so it has no candidates: {words}", key="kind")
+    return NoSolution(f"the file determines everything, so there are no candidates: {words}", key="kind")

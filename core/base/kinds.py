@@ -83,7 +83,8 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "crank-rocker",
-            "four-bar whose rocker swings: from its links, from swing and time ratio, or through three pairs of angles",
+            "four-bar with an oscillating rocker: from its links, from swing and time ratio, or through three pairs "
+            "of angles",
             "machines.crank_rocker",
             "spec:CrankRockerSpec",
             {
@@ -240,7 +241,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "geared-rocker",
-            "rocker whose swing a gear on the coupler multiplies",
+            "rocker whose swing is multiplied by a gear on the coupler",
             "machines.planet_linkages",
             "rocker_spec:GearedRockerSpec",
             {
@@ -262,7 +263,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "geared-five-bar",
-            "five-bar held by gears: path of a point, or output as a function of the input",
+            "five-bar closed by gears: path of a point, or output as a function of the input",
             "machines.five_bar",
             "spec:GearedFiveBarSpec",
             {
@@ -282,7 +283,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "geared-six-bar",
-            "loop of six links that two gear trains drive by one input",
+            "loop of six links with two gear trains and one input",
             "machines.six_bar",
             "spec:GearedSixBarSpec",
             {"analyze": "design:GearedSixBar", "gear": "design:GearedSixBar", "loads": "loads:SixBarLoads", **_STUDIES},
@@ -353,7 +354,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "geneva-drive",
-            "wheel with radial slots that a pin on a crank moves step by step",
+            "wheel with radial slots, moved step by step by a pin on a crank",
             "machines.geneva",
             "spec:GenevaDriveSpec",
             {"analyze": "design:GenevaDrive", "loads": "loads:GenevaLoads", **_STUDIES},
@@ -381,7 +382,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "cam-gear",
-            "sun and planet whose lever runs in a fixed groove: any motion of the output about an even turn",
+            "sun and planet with a lever in a fixed groove: any motion of the output about a uniform rotation",
             "machines.cam_drives",
             "spec:CamGearSpec",
             {"analyze": "grooved:CamGear", "loads": "loads:CamGearLoads", **_STUDIES},
@@ -396,7 +397,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "cam-linkage",
-            "five-bar whose middle joint runs in a fixed groove: any motion of the output",
+            "five-bar with its middle joint in a fixed groove: any motion of the output",
             "machines.cam_drives",
             "spec:CamLinkageSpec",
             {"analyze": "grooved:CamLinkage", "loads": "loads:CamLinkageLoads", **_STUDIES},
@@ -444,7 +445,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "measured-cam",
-            "a cam by measured points of its profile: motion of its follower, and the laws it is made of",
+            "cam given by measured points of its profile: motion of its follower and motion laws",
             "machines.disc_cam",
             "measured_spec:MeasuredCamSpec",
             {"analyze": "measured:MeasuredCamDesign", "loads": "loads:MeasuredCamLoads", **_STUDIES},
@@ -461,7 +462,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "motion-law",
-            "a motion law by itself: constants, vibration left, proof",
+            "motion law by itself: constants, residual vibration, proof of the optimum",
             "machines",
             "motion_law:MotionLawSpec",
             {"laws": "motion_law:MotionLawDesign", "analyze": "motion_law:MotionLawDesign"},

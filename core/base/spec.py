@@ -90,7 +90,7 @@ def _fit_to_print(name: str) -> str:
     import unicodedata
 
     if wrong := next((each for each in name if unicodedata.category(each) in ("Cc", "Cs") and each not in "\t\n"), ""):
-        raise refused(f"name holds the control character U+{ord(wrong):04X}\nremove it", code="GL108")
+        raise refused(f"name contains the control character U+{ord(wrong):04X}\nremove it", code="GL108")
     return name
 
 
@@ -99,7 +99,7 @@ class DesignSpec(Spec):
 
     name: Annotated[str, AfterValidator(_fit_to_print)] = Field(
         "design",
-        description="what the design is called; default: the file's stem",
+        description="name of the design; default: file name without its ending",
         json_schema_extra={"maxLength": MOST_NAME},
     )
 
@@ -183,7 +183,7 @@ class Scatter(Spec):
         None, description="tolerances of dimensions, for the commands tolerance and register"
     )
     register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
-        None, alias="register", description="what the output may lose by the errors of the parts, for register"
+        None, alias="register", description="allowed error of the output, for the command register"
     )
 
 
@@ -196,7 +196,7 @@ class DrivenSpec(Scatter, DesignSpec):
 
     input_speed: Speed | None = Field(
         None,
-        description="speed of the input, counter-clockwise: with it real speeds, accelerations and times are given",
+        description="speed of the input, counter-clockwise: with it real speeds, accelerations and times are computed",
     )
 
     own_commands: ClassVar[tuple[str, ...]] = ("analyze", "gear")
@@ -205,8 +205,10 @@ class DrivenSpec(Scatter, DesignSpec):
 class LoadLimits(Spec):
     """Limits of the checks of the loads."""
 
-    torque_margin: Ratio = Field(1.0, description="the motor's torque over the one needed, at least")
-    frequency_ratio: Ratio = Field(10.0, description="natural frequency of the output over that of the input, at least")
+    torque_margin: Ratio = Field(1.0, description="minimum ratio of the motor's torque to the required one")
+    frequency_ratio: Ratio = Field(
+        10.0, description="minimum ratio of the output's natural frequency to the input's frequency"
+    )
 
 
 class GearLimits(Spec):
@@ -223,7 +225,7 @@ class DrawingLimits(Spec):
 
     backlash: SignedLength = Field(0.0, description="minimum normal backlash; below it a warning")
     safety_pitting: Ratio = Field(1.0, description="minimum safety against pitting")
-    safety_bending: Ratio = Field(1.4, description="minimum safety against breaking at the root")
+    safety_bending: Ratio = Field(1.4, description="minimum safety against tooth breakage")
     safety_scuffing: Ratio = Field(1.8, description="minimum safety against scuffing, with rating")
 
 
@@ -239,4 +241,4 @@ def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
     """Refuse a slide line that the connecting rod cannot reach."""
     if abs(offset) >= rod:
         message = f"offset {offset:g} mm is not below the rod's {rod:g} mm"
-        raise refused(f"{message}\nlengthen the rod or bring the slide line nearer", key)
+        raise refused(f"{message}\nlengthen the rod or reduce the offset", key)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 class DrumFollower(Spec):
     """A roller whose axis is radial, on a slide along the drum."""
 
-    type: Literal["translating-roller"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["translating-roller"] = Field(description="motion of the follower, and its contact with the cam")
     roller_radius: Length = Field(description="radius of the roller")
 
 
@@ -304,7 +304,7 @@ class CylindricalCamDesign(OfFollower, Design):
         shown = None
         if value < 0.0:
             what, shown = "the wall of the track is undercut", NO_NUMBER
-        fix = "take a smaller roller, or enlarge the drum"
+        fix = "use a smaller roller, or enlarge the drum"
         return CAM_UNDERCUT.check(status, what, value, 0.0, side=">=", shown=shown, recommended=_THIN, at=at, fix=fix)
 
 

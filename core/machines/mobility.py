@@ -148,7 +148,7 @@ def _require_one_piece(links: Mapping[str, Sequence[str]]) -> None:
     lost = [name for name in names if name not in reached]
     if lost:
         raise NoSolution(
-            (f"the linkage falls into parts: {', '.join(lost)} shares no pin with {', '.join(sorted(reached))}"),
+            (f"the linkage is not connected: {', '.join(lost)} shares no pin with {', '.join(sorted(reached))}"),
             fix="name the pin at which they meet in both",
         )
 
@@ -449,7 +449,9 @@ class GearTrainMobility(Design):
         for i, train in enumerate(self.spec.trains, start=1):
             reasons = self._reasons[i - 1]
             if i in self._held:
-                reasons = [("its gears cannot turn: what they are fixed to holds them", "put it on other pins")]
+                reasons = [
+                    ("its gears cannot turn: the links that they are fixed to prevent it", "put it on other pins")
+                ]
             for reason, fix in reasons:
                 yield TRAIN_FIT.check("fail", f"train {i}: {reason}", fix=fix)
             if not reasons:
@@ -520,7 +522,7 @@ class GearTrainMobility(Design):
         first, last = train.gears[0].fixed_to, train.gears[-1].fixed_to
         if first is not None and first == last and all(gear.at in self.links[first] for gear in train.gears):
             yield (
-                f"both ends are fixed to {first}, which carries the whole train: it takes no freedom away",
+                f"both ends are fixed to {first}, which carries the whole train: it removes no degree of freedom",
                 "free one end",
             )
 

@@ -40,13 +40,13 @@ class MotionLawSpec(DesignSpec):
     time: Millis | None = Field(None, description="time of the phase")
     speed: Speed | None = Field(None, description="speed of the input, instead of time; with angle")
     angle: PhaseAngle | None = Field(None, description="angle of the input over the phase")
-    frequency: Hertz | None = Field(None, description="natural frequency of what the law moves")
-    damping: Damping | None = Field(None, description="its damping ratio; default: 0")
+    frequency: Hertz | None = Field(None, description="natural frequency of the driven system")
+    damping: Damping | None = Field(None, description="damping ratio of that system; default: 0")
 
     @model_validator(mode="after")
     def _one_time(self) -> MotionLawSpec:
         if self.time is not None and self.speed is not None:
-            raise refused("time and speed say the same\nomit time or speed", "speed")
+            raise refused("time and speed specify the same\nomit time or speed", "speed")
         if (self.speed is None) != (self.angle is None):
             key = "angle" if self.angle is None else "speed"
             raise refused("speed and angle go together\ngive both, or time", key)

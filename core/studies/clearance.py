@@ -325,8 +325,8 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
     """
     gap, names = pair.gap, f"{pair.one.name} and {pair.other.name}"
     judged = collision_judged(gap, limit)
-    note = "the gears need planes of their own, as limits.gear_gap allows" if judged.warns else ""
-    fix = "put the gears in planes of their own" if judged.warns else remedy
+    note = "the gears must lie in separate planes, as limits.gear_gap allows" if judged.warns else ""
+    fix = "put the gears in separate planes" if judged.warns else remedy
     return judged.check(
         f"gap between the tips of {names}",
         fix,
@@ -430,7 +430,7 @@ def _thin_rim(seat: Seat) -> Check:
         name=name,
         overlap=overlap,
         aside="half the tooth height" if seat.rim >= 0.0 else "",
-        fix=f"lower {seat.shaft.key}, or cut the teeth into the shaft",
+        fix=f"reduce {seat.shaft.key}, or cut the teeth into the shaft",
     )
 
 

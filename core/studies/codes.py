@@ -1,4 +1,4 @@
-"""The rules of what is asked of any design: studies, tolerances and register, loads."""
+"""The rules of the checks that apply to any kind of design: studies, tolerances and register, loads."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ FEASIBLE = Rule(
     "few designs satisfy everything",
     "Less than one in a hundred of a study's designs satisfies all checks and conditions (a warning), or none does (a "
     "failure).",
-    "A front of few designs says more of the conditions than of the objectives.",
-    "Look at the table why: which check or condition alone removes the most, and how near the nearest design comes.",
+    "A front of few designs depends more on the conditions than on the objectives.",
+    "See the table why: it shows which check or condition alone excludes the most designs, and how close the nearest "
+    "one is.",
     "designs that satisfy everything over all designs, 1 %",
     "own choice",
     ("feasible-designs",),
@@ -20,8 +21,8 @@ RANGE_END = Rule(
     "GL162",
     "best designs at the end of a range",
     "Designs of the front have a variable at an end of its range.",
-    "Beyond it there may be better ones.",
-    "Widen the range, unless the end is one that the machine sets.",
+    "Better designs may lie beyond that end.",
+    "Widen the range, unless the machine sets this limit.",
     "the variable equals from or to",
     "own choice",
     ("range-end",),
@@ -32,11 +33,11 @@ RANGE_END = Rule(
 
 POWER_IDENTITY = Rule(
     "GL601",
-    "power identity",
+    "input torque differs between two methods",
     "The input torque by virtual power and that by the forces of all joints differ.",
     "Both follow from the same links, and losses of friction are counted from the motion of the joints; where they "
     "differ, none of the forces can be trusted.",
-    "Move the mechanism away from a dead centre: near one the forces grow beyond all digits.",
+    "Move the mechanism away from a dead centre: near one the forces grow without limit.",
     "|M_NE - M_VP| <= 1e-9 max |M|",
     "virtual power against Newton and Euler",
     checks=("power-identity",),
@@ -47,10 +48,10 @@ LOAD_REVERSAL = Rule(
     "GL602",
     "load reversal",
     "A tooth force, or the force of a roller between two cams, changes its sign.",
-    "There the teeth change flanks through the backlash: it rattles, and while it does the second gear "
-    "of the mesh lags by backlash/(2 r_w), r_w its own. Within a dwell or a synchronous zone that is an error of "
+    "There the teeth change flanks through the backlash and rattle; meanwhile the second gear of the mesh lags by "
+    "backlash/(2 r_w), r_w its working pitch radius. Within a dwell or a synchronous zone that is an error of "
     "position.",
-    "Add a constant load or a spring on the output, lower the speed, lighten what is driven, or take backlash away.",
+    "Add a constant load or a spring on the output, reduce the speed, the driven masses, or the backlash.",
     "roots of F_t(phi)",
     "own derivation: the flank that touches follows from the sign of F_t",
     checks=("load-reversal",),
@@ -60,12 +61,13 @@ LOAD_REVERSAL = Rule(
 MOTOR_TORQUE = Rule(
     "GL603",
     "motor torque",
-    "The motor gives more than it can for a moment (peak, driving or braking), or all the time (root mean square), or "
-    "it runs the machine at another speed than that of the file, at which forces, lives and vibration are computed.",
-    "Above its maximum torque it stalls or trips; above its rated torque in the mean it overheats. Forces of masses "
-    "grow with the square of the speed.",
-    "Take a larger motor or ratio, add a flywheel (loads.flywheel.inertia) that levels the peak, or balance the load "
-    "by springs. Where the speed is another one, set loads.motor.ratio, or the speed to the one found.",
+    "The motor must give more than its maximum torque (peak, driving or braking) or more than its rated torque (root "
+    "mean square), or it runs the machine at another speed than that of the file, at which forces, lives and "
+    "vibration are computed.",
+    "Above its maximum torque it stalls or trips; above its rated torque it overheats. Inertia forces grow with the "
+    "square of the speed.",
+    "Use a larger motor or ratio, add a flywheel (loads.flywheel.inertia) that reduces the peak, or balance the load "
+    "by springs. If the speed differs, set loads.motor.ratio, or set the speed of the file to the one found.",
     "|peak| <= max_torque/margin, rms <= rated_torque/margin (a file with neither warns), |(w_max + w_min)/(2 w) - 1| "
     "<= 0.1",
     "thermal and pull-out limit of an electric motor",
@@ -76,9 +78,9 @@ MOTOR_TORQUE = Rule(
 SPEED_FLUCTUATION = Rule(
     "GL604",
     "speed fluctuation",
-    "The speed of the input varies by more than is allowed over a period, or the machine stops; where the file allows "
-    "no number, by more than a fifth (a warning), since forces, lives and vibration are computed for an even speed.",
-    "Uneven speed shows in the print, and all loads of motion grow with the square of the maximum speed.",
+    "Over a period the input speed varies by more than loads.flywheel.fluctuation, or the machine stops; without that "
+    "key a variation above 20 % is a warning, since forces, lives and vibration are computed for a constant speed.",
+    "Speed variation is visible in the print, and inertia forces grow with the square of the maximum speed.",
     "Add flywheel inertia: loads.flywheel.fluctuation alone gives the minimum that is needed.",
     "(w_max - w_min)/w_m <= loads.flywheel.fluctuation, default 0.2",
     "own derivation: energy with variable inertia",
@@ -89,10 +91,11 @@ SPEED_FLUCTUATION = Rule(
 BEARING_LIFE = Rule(
     "GL606",
     "bearing life",
-    "The rating life of a pin's bearing is below the required one, or it swings too little for rolling "
-    "bodies, or helical teeth push along its axis, which forces in the plane of the machine do not show.",
-    "A bearing that fails stops the machine; one that only swings brinells at the same few positions.",
-    "Take a bearing of a higher rating, or a plain one where the swing is small; less mass lowers the load.",
+    "The rating life of a pin's bearing is below the required one, or the bearing oscillates too little for rolling "
+    "elements, or helical teeth load it axially, which the forces in the plane of the machine do not include.",
+    "A bearing that fails stops the machine; a rolling bearing that only oscillates brinells at a few positions.",
+    "Use a bearing with a higher rating, or a plain bearing where the oscillation is small; less mass reduces the "
+    "load.",
     "L_n = a_1 (C/P)^p 10^6 relative turns, a_1 = 1 at 90 % reliability",
     "ISO 281",
     checks=("bearing-life",),
@@ -102,8 +105,8 @@ FORCE_AMPLIFICATION = Rule(
     "GL612",
     "force amplification",
     "The transmission angle becomes so small that pin forces are five times those at a right angle.",
-    "Forces grow as 1/sin of the transmission angle, and with them wear, play and the errors of these numbers.",
-    "Change the links for a larger minimum transmission angle.",
+    "Forces grow as 1/sin of the transmission angle, and with them wear, play and the errors of the results.",
+    "Change the links to increase the minimum transmission angle.",
     "1/sin(mu_min) <= 5",
     "VDI 2142",
     checks=("force-amplification",),
@@ -114,8 +117,8 @@ IMPACT = Rule(
     "GL614",
     "impact",
     "The speed of a link jumps.",
-    "A jump of speed has no finite force: each start and stop costs energy, as heat and in the tooth that strikes.",
-    "Cut the first and last tooth, add entry cams, or lighten what is driven.",
+    "A jump of speed is an impact: each start and stop loses energy, as heat and in the tooth that strikes.",
+    "Cut the first and last tooth, add entry cams, or reduce the driven masses.",
     "E = J_red w_F^2/2 at each start and stop",
     "impulse and energy of a plastic impact",
     checks=("impact",),
@@ -125,9 +128,10 @@ IMPACT = Rule(
 SELF_LOCKING = Rule(
     "GL615",
     "self-locking",
-    "With its friction the mechanism locks itself, or comes near to it.",
-    "The forces of friction grow from the forces that they cause; near locking any change of friction stops it.",
-    "Make the pins thinner, lower the friction, or enlarge the transmission angle.",
+    "Friction locks the mechanism, or nearly does so.",
+    "Friction forces increase the joint forces that cause them; near self-locking a small rise of friction stops the "
+    "mechanism.",
+    "Use thinner pins, reduce the friction, or increase the transmission angle.",
     "ratio of two passes of the friction < 0.5",
     "own derivation: fixed point of the friction",
     checks=("self-locking",),
@@ -136,11 +140,11 @@ SELF_LOCKING = Rule(
 )
 TOOTH_LOAD = Rule(
     "GL616",
-    "teeth rated for less than they carry",
-    "The maximum tooth force of the loads is above the one for which the file has the teeth rated, K_A counted; a "
-    "force on the other flanks bends the teeth both ways and counts for 3/7 of it in addition.",
-    "The safeties against pitting and breaking (GL210, GL211) are those of a smaller force.",
-    "Raise the load of the rating (torque, power or tangential_force), or its application factor.",
+    "teeth rated for a smaller load than they carry",
+    "The maximum tooth force of the loads exceeds the force of the rating times K_A; a force on the opposite flanks "
+    "bends the teeth both ways, and 3/7 of it is added.",
+    "The safeties against pitting and tooth breakage (GL210, GL211) are those of a smaller force.",
+    "Increase the load of the rating (torque, power or tangential_force), or its application factor.",
     "F_t + 3/7 F_back <= K_A F_t,rated r/r_w, 3/7 = (1 - M)/(1 + M) with M = 0.4 of tempered steel",
     "ISO 6336-6 for a load that varies, ISO 6336-3 annex B for one that turns back; own derivation",
     checks=("tooth-load",),
@@ -150,9 +154,9 @@ TOOTH_LOAD = Rule(
 CONTACT_PRESSURE = Rule(
     "GL607",
     "contact pressure",
-    "The Hertzian pressure of roller and cam is above what their material allows.",
+    "The Hertzian pressure of roller and cam exceeds the allowed pressure of their material.",
     "The surface pits; the maximum shear lies below it, where the hardened depth must still reach.",
-    "Widen the roller (loads.roller.width), enlarge roller or cam, or lower speed, mass or spring.",
+    "Widen the roller (loads.roller.width), enlarge roller or cam, or reduce speed, mass or spring force.",
     "p_max = sqrt(N E*/(pi b R)),  R = r_g (1 - r_g kappa)",
     "Hertz, line contact",
     checks=("contact-pressure",),
@@ -163,8 +167,8 @@ CONTACT_LOSS = Rule(
     "GL608",
     "contact loss",
     "A roller leaves its cam at the speed of the design, or nearly does.",
-    "What lifts off comes back with a blow, and the follower leaves its law.",
-    "Raise the spring's force, lower the speed, or lighten the follower.",
+    "A roller that lifts off falls back with an impact, and the follower deviates from its motion law.",
+    "Increase the spring force, reduce the speed, or use a lighter follower.",
     "N > 0",
     "VDI 2142",
     checks=("contact-loss",),
@@ -173,9 +177,9 @@ CONTACT_LOSS = Rule(
 ROLLER_SKID = Rule(
     "GL609",
     "roller skid",
-    "The cam cannot drive the roller round: its inertia and bearing need more than friction gives.",
+    "Friction at the cam cannot turn the roller: its inertia and bearing need more torque.",
     "A roller that slides wears itself and the cam.",
-    "Take a lighter roller, a bearing that runs more easily, or more contact force.",
+    "Use a lighter roller, a bearing with less friction, or a higher contact force.",
     "|J_r dw/dt|/r_g + M_b/r_g <= mu N",
     "own derivation: friction at the contact",
     checks=("roller-skid",),
@@ -185,9 +189,9 @@ ROLLER_SKID = Rule(
 PRELOAD = Rule(
     "GL613",
     "preload",
-    "The two rollers of a positive drive are not pressed on their cams all the time.",
-    "Where one opens, the drive has play: it strikes at every change of the force.",
-    "Raise loads.roller.preload to what is needed.",
+    "The two rollers of a positive drive are not pressed on their cams at every instant.",
+    "Where a contact opens, the drive has play and strikes at every reversal of the force.",
+    "Increase loads.roller.preload to preload_needed.",
     "P >= max(F k_2/(k_1 + k_2), -F k_1/(k_1 + k_2))",
     "own derivation: two springs against each other",
     checks=("preload",),
@@ -197,10 +201,10 @@ PRELOAD = Rule(
 RIGID_MODEL = Rule(
     "GL605",
     "rigid model",
-    "The first natural frequency is not far above the frequency of the input, or the motion is short against the "
-    "natural period.",
+    "The first natural frequency is not far above the frequency of the input, or the motion lasts only a few natural "
+    "periods.",
     "All forces are those of rigid links; the nearer the frequencies, the more the output differs from its law.",
-    "Stiffen the drive of the output, lighten it, or lower the speed.",
+    "Stiffen the drive of the output, reduce its mass, or reduce the speed.",
     "f_n >= limits.frequency_ratio f,  n_T = T_1 f_n",
     "VDI 2149",
     checks=("rigid-model",),
@@ -209,9 +213,9 @@ RIGID_MODEL = Rule(
 RESIDUAL_VIBRATION = Rule(
     "GL610",
     "residual vibration",
-    "The output still vibrates in the dwell by more than is allowed.",
-    "What is gripped, printed or fed in the dwell moves.",
-    "Lower the speed, stiffen the drive of the output, or take a smoother law (4-5-6-7, cycloidal).",
+    "The output vibrates in the dwell by more than loads.vibration.allowed_residual.",
+    "The sheet moves while it is gripped, printed or fed.",
+    "Reduce the speed, stiffen the drive of the output, or use a smoother law (4-5-6-7, cycloidal).",
     "amplitude after the rise <= loads.vibration.allowed_residual",
     "VDI 2149",
     checks=("residual-vibration",),
@@ -236,7 +240,7 @@ NO_MECHANISM = Rule(
     "some designs as manufactured do not exist",
     "With the sizes of some samples the mechanism does not close, or its crank does not turn (a warning).",
     "Such a design counts as one that fails.",
-    "Tighten the sizes that contribute most, or keep further away from the change point.",
+    "Tighten the tolerances that contribute most, or keep further away from the change point.",
     "share of samples without a mechanism",
     "own choice",
     ("no-mechanism",),
@@ -245,8 +249,8 @@ NO_MECHANISM = Rule(
 NOT_LINEAR = Rule(
     "GL178",
     "sensitivities do not explain the variation",
-    "The variance by the sensitivities at the nominal design is less than nine tenths of the sampled one (a warning).",
-    "Linear shares then point at the wrong part: the quantity has a kink, or bends within the tolerances.",
+    "The variance by the sensitivities at the nominal design is less than 90 % of the sampled one (a warning).",
+    "Linear shares then point at the wrong part: the quantity has a kink, or is not linear within the tolerances.",
     "Request Sobol' indices (--sobol), which need no linear response.",
     "sum (sensitivity sigma)^2 >= 0.9 variance of the samples",
     "own choice",
@@ -256,8 +260,8 @@ NOT_LINEAR = Rule(
 TARGET_YIELD = Rule(
     "GL179",
     "yield below its target",
-    "The lower end of the yield's interval lies below tolerance.target_yield.",
-    "More of the machines than allowed would not do what is required of them.",
+    "The lower end of the yield's 95 % interval lies below tolerance.target_yield.",
+    "More machines than allowed would not meet their requirements.",
     "Tighten what contributes most (table contributions), or let --allocate choose the grades.",
     "lower end of the 95 % interval >= target_yield",
     "own choice",
@@ -267,12 +271,12 @@ TARGET_YIELD = Rule(
 REGISTER_BUDGET = Rule(
     "GL520",
     "register budget exceeded",
-    "The errors of the parts add up to more than register.tolerance over the stretch that prints or holds: 99.73 % of "
-    "the machines do not keep it (by register.method worst: not all), or at worst one does not (a warning).",
+    "Over the print or dwell the register error exceeds register.tolerance: the band that 99.73 % of the machines "
+    "keep (with register.method worst: all), or only the worst case (a warning).",
     "Colours no longer fall on each other, or the sheet is handed over where the next gripper does not expect it.",
-    "Improve first what is listed first in the table budget.",
-    "what 99.73 %, by method worst all, keep over the stretch, relative to its start, <= register.tolerance; "
-    "worst case: a warning",
+    "Reduce first the error that is listed first in the table budget.",
+    "error that 99.73 % of the machines keep (method worst: all) over the stretch, relative to its start, <= "
+    "register.tolerance; worst case: a warning",
     "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
     ("register-budget",),
     ("register.tolerance", "register"),
@@ -280,11 +284,11 @@ REGISTER_BUDGET = Rule(
 )
 BACKLASH_IN_DWELL = Rule(
     "GL521",
-    "torque turns within the dwell",
+    "torque reverses within the dwell",
     "The torque on the output (of a press the force on racks and cylinder) changes its sign while the output should "
-    "stand or print (a warning).",
-    "There the output jumps by the backlash of all meshes on its way.",
-    "Brake the output with more friction than its inertia requires, or preload the gears.",
+    "dwell or print (a warning).",
+    "There the output jumps by the backlash of all meshes that drive it.",
+    "Brake the output with a friction torque above its inertia torque, or preload the gears.",
     "sign of J W' w^2 + T_f sign(W) + T_load over the stretch; of a press sign of q''",
     "own derivation",
     ("backlash-in-dwell",),

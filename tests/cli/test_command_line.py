@@ -189,7 +189,7 @@ def test_help_by_every_name(gearlink: Any, words: tuple[str, ...]) -> None:
 def test_no_command_is_answered_with_help(gearlink: Any, arguments: tuple[str, ...]) -> None:
     ended = gearlink(*arguments)
     assert ended.status == ExitCode.WRONG_INPUT
-    heading = "Commands:" if arguments else "Find the way:"
+    heading = "Commands:" if arguments else "Learn and start:"
     assert heading in ended.err
     assert "..." not in ended.err.partition(heading)[2]
 
@@ -198,7 +198,7 @@ def test_no_command_is_answered_with_help(gearlink: Any, arguments: tuple[str, .
 def test_numbers_that_no_machine_has_are_refused(gearlink: Any, crank: Path, value: str) -> None:
     ended = gearlink("crank", crank, "--set", f"rod={value}", "--format", "json")
     assert ended.status == ExitCode.WRONG_INPUT
-    assert ended.json["errors"][-1]["message"] == f"rod is {float(value):g}, which is no number of a machine"
+    assert ended.json["errors"][-1]["message"] == f"rod is {float(value):g}, which no machine can have"
 
 
 def test_missing_file(gearlink: Any) -> None:
@@ -266,7 +266,7 @@ def test_a_file_for_a_folder_is_said_so(gearlink: Any, crank: Path, tmp_path: Pa
     (tmp_path / "taken").write_text("")
     ended = gearlink("crank", crank, "--plot", "--out", tmp_path / "taken")
     assert ended.status == ExitCode.WRONG_INPUT
-    assert f"{tmp_path / 'taken'} is no folder" in ended.err.replace("\n", "")
+    assert f"{tmp_path / 'taken'} is not a folder" in ended.err.replace("\n", "")
     assert (tmp_path / "taken").read_text() == ""
 
 

@@ -91,7 +91,10 @@ def test_a_section_that_a_result_needs_is_shown_where_the_error_says(gearlink: A
         "unloader: {type: pneumatic, pivot_ratio: 2.5, arm: 120}\n"
     )
     ended = gearlink("swing", path, "--table", "contact")
-    assert (ended.status, "GL113: this needs the section cam: center_distance, roller_radius" in ended.err) == (2, True)
+    assert (ended.status, "GL113: the command needs the section cam: center_distance, roller_radius" in ended.err) == (
+        2,
+        True,
+    )
     assert "help: `gearlink new wide-swing-cam` shows the keys of cam, with units" in ended.err
     assert "\ncam:" in gearlink("new", "wide-swing-cam").out
     assert (

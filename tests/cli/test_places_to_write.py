@@ -54,7 +54,7 @@ def test_what_is_no_folder_is_refused_before_anything_is_written(
     assert ended.status == 2
     words = " ".join(ended.err.split())
     assert f"Invalid value for '{line[-1]}': " in words
-    assert ("standard output is no " if place else "the name is empty") in words
+    assert ("standard output is not a " if place else "the name is empty") in words
     assert names(box) == {"crank.yaml"}
 
 
@@ -66,8 +66,8 @@ def test_what_is_no_folder_is_refused_before_anything_is_written(
         ("", "the name is empty help: give a file"),
         ("crank.yaml", "crank.yaml exists already"),
         (".", ". is a folder"),
-        pytest.param("/dev/null", "/dev/null is no plain file", marks=UNIX),
-        pytest.param("crank.yaml/x", "crank.yaml is no folder", marks=UNIX),
+        pytest.param("/dev/null", "/dev/null is not a regular file", marks=UNIX),
+        pytest.param("crank.yaml/x", "crank.yaml is not a folder", marks=UNIX),
         pytest.param("x" * 300, "File name too long", marks=UNIX),
         pytest.param("a/" + "x" * 300, "File name too long", marks=UNIX),
     ],
@@ -84,7 +84,7 @@ def test_files_that_cannot_be_written(gearlink: Any, box: Path, line: tuple[str,
 @pytest.mark.parametrize("line", FILES.values(), ids=FILES)
 def test_no_force_replaces_what_is_no_plain_file(gearlink: Any, box: Path, line: tuple[str, ...]) -> None:
     os.mkfifo(box / "pipe")
-    for place, words in (("pipe", "pipe is no plain file"), (".", ". is a folder")):
+    for place, words in (("pipe", "pipe is not a regular file"), (".", ". is a folder")):
         ended = gearlink(*line, place, "--force")
         assert (ended.status, words in ended.err) == (2, True)
     assert (box / "pipe").is_fifo()

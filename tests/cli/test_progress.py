@@ -195,7 +195,7 @@ def test_times_in_words(seconds: float, words: str) -> None:
     [
         (
             "analyze failing.yaml --suggest --save - --quantity frame_length",
-            ["seeking changes with which failing holds 8", "computing what is saved"],
+            ["searching for changes with which all checks of failing pass 8", "computing the design to be saved"],
         ),
         ("animate crank.yaml --format html --out out --seconds 1", ["drawing crank.yaml"]),
         ("animate crank.yaml --out out --seconds 1 --size 160x160", ["drawing crank.yaml", "drawing 25"]),
@@ -203,7 +203,7 @@ def test_times_in_words(seconds: float, words: str) -> None:
         ("check crank.yaml failing.yaml", ["checking 2"]),
         (
             "explore study.yaml",
-            ["exploring", "putting the designs together", "computing the results of the study"],
+            ["exploring", "combining the designs", "computing the results of the study"],
         ),
         ("report crank.yaml --out out", ["computing and drawing crank"]),
     ],

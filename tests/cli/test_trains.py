@@ -43,7 +43,7 @@ def lever(tmp_path):
         ("tool: [{rounding: 0.3}, {roundingg: 2}]", "6:28", "did you mean 'rounding'"),
         ("material: {bending_limit: [400, x]}", "6:35", "must be a number"),
         ("span_teeth: [3, 21]", "6:19", "a gear of 20 teeth has no span over 21"),
-        ("cutter: {teeth: 20}", "6:3", "goes with a ring"),
+        ("cutter: {teeth: 20}", "6:3", "applies only to a ring"),
         ("helix_hand: [right, left]", "6:3", "give helix_angle"),
         ("tool: {rounding: 3}", "6:3", "full round"),
         ("profle_shift: [0, 0]", "6:3", "did you mean 'profile_shift'"),

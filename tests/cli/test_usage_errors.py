@@ -62,7 +62,7 @@ def pair(tmp_path: Path) -> Path:
         ("gear SPEC --plot-format markdown", "help: give --format md"),
         ("check SPEC --format sarif", "help: use `gearlink batch DIR --format sarif`"),
         ("export SPEC -o x.dxf", "help: --out DIR: folder for files that are written"),
-        ("gear SPEC --jobs 4", "help: it belongs to batch, explore, tolerance, register"),
+        ("gear SPEC --jobs 4", "help: it is an option of batch, explore, tolerance, register"),
         ("gear SPEC --samples 1e3", "'1e3' is not a whole number from 2 to 10000000   help: write 1000"),
         ("gear SPEC -format json", "help: give --format, with two dashes"),
         ("gear SPEC -quiet", "help: give --quiet, with two dashes"),
@@ -71,7 +71,7 @@ def pair(tmp_path: Path) -> Path:
         ("dwell SPEC", "help: use `gearlink synth dwell`"),
         ("SPEC", "help: for a file: `gearlink analyze "),
         ("bench involute", "help: run times are measured in a checkout of gearlink, by `make bench`"),
-        ("gear SPEC other.yaml", "help: gear takes one file, `gearlink batch` and `gearlink check` several"),
+        ("gear SPEC other.yaml", "help: gear accepts one file; `gearlink batch` and `gearlink check` accept several"),
         ("gear", "Missing argument 'SPEC'.    help: design file, or - for standard input"),
     ],
 )

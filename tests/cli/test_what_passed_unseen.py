@@ -143,7 +143,7 @@ def test_a_ratio_above_the_estimate_but_below_the_least_fails(gearlink: Any, tmp
     [
         ("natural_frequency", "Unit: Hz"),
         ("drive_ratio", "torque of the cam shaft without over that with the device"),
-        ("drive_torque_peak", "without device and linkage_share"),
+        ("drive_torque_peak", "without device and without linkage_share"),
     ],
 )
 def test_words_of_the_wide_swing_are_explained(gearlink: Any, name: str, words: str) -> None:

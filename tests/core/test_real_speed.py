@@ -200,7 +200,7 @@ def test_travel_needs_no_speed_and_nothing_of_it_appears_without_a_feed():
 @pytest.mark.parametrize(("feed", "words"), [
     ({}, "give radius, or pitch and teeth"),
     ({"pitch": 12.7}, "give radius, or pitch and teeth"),
-    ({"radius": 10.0, "teeth": 19}, "radius goes with a roller or a belt"),
+    ({"radius": 10.0, "teeth": 19}, "radius applies to a roller or a belt"),
     ({"pitch": 12.7, "teeth": 19, "belt_thickness": 1.0}, "a chain has no belt_thickness"),
 ])  # fmt: skip
 def test_a_feed_is_one_of_three(feed, words):

@@ -244,7 +244,7 @@ def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
     """The picture of a command."""
     made, (shape, *rows) = panels.stack(f"{design.spec.name}: {command}", (2.6, 1.0, 1.0, 1.0))
     t = np.linspace(0.0, TURN, 1441)
-    panels.drawing(shape, f"Profile through {len(design.residuals)} points, missed by {design.fit_max:.3g} mm at most")
+    panels.drawing(shape, f"Profile through {len(design.residuals)} points, deviation {design.fit_max:.3g} mm at most")
     pitch = design.cam.contact(t).center
     radius = design.cam.series.at(t, 0)[0]
     angle, measured = design.points

@@ -79,7 +79,7 @@ class DesignChart:
         x = np.linspace(low, high, samples)
         found = [self.values(x, parameter) for parameter in (curves or (None,))]
         if all(bool(np.all(np.isnan(column))) for column in found):
-            raise NoSolution(f"the chart {self.name} has no values there", fix="widen the range, or take other curves")
+            raise NoSolution(f"the chart {self.name} has no values there", fix="widen the range, or use other curves")
         return Table(
             self.name,
             (self.x.name, *self.columns(curves)),
@@ -203,11 +203,11 @@ CHARTS: dict[str, DesignChart] = {
         ),
         DesignChart(
             "speed-swing",
-            "Share of the frame ratio in the swing of the output speed",
+            "Influence of the frame ratio on the variation of the output speed",
             "thesis (4-13), figure 4-4",
             "speed_swing_share",
             _D,
-            Axis("speed_swing_share", "1", "share of the frame ratio", "$y = d/(d^2+1)$"),
+            Axis("speed_swing_share", "1", "influence of the frame ratio", "$y = d/(d^2+1)$"),
             None,
             (1.0, 10.0),
         ),
@@ -281,5 +281,7 @@ CHARTS: dict[str, DesignChart] = {
     )
 }
 
-OF_FILES = {"residual": ("Vibration left over the speed, of the laws of a file and of usual ones", "own derivation")}
+OF_FILES = {
+    "residual": ("Residual vibration over the speed, of the laws of a file and of usual laws", "own derivation")
+}
 """Charts that a design file alone has: title and source."""

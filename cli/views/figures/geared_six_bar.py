@@ -63,7 +63,7 @@ _WORDS = {
     "coupler_length": "BC, CD, DE",
     "output_length": "output EF",
     "frame_length": "frame AF",
-    "period_turns": "input turns until all repeats",
+    "period_turns": "input revolutions until the motion repeats",
     "mean_ratio": "net output revolutions per input revolution",
     "output_swing": "swing of the output",
     "min_transmission_angle": "minimum transmission angle",

@@ -132,7 +132,7 @@ _WORDS = {
     "contact_stress": "contact stress",
     "safety_pitting": "safety against pitting",
     "root_stress": "root stress",
-    "safety_bending": "safety against breaking",
+    "safety_bending": "safety against tooth breakage",
 }
 _SYMBOL = 1
 """The column of the symbols, as the nomenclature writes them."""
@@ -432,7 +432,7 @@ def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
     first = geometry.first_space[gear] - pitch_angle * (count // 2)
     teeth = _teeth(mesh, gear, 1e-3 * pair.module, count, first)
     if teeth is None:
-        words = f"gear {mesh.gears[gear]}: its tool leaves no such teeth"
+        words = f"gear {mesh.gears[gear]}: the tool cannot cut these teeth"
         place, box = (0.5, 0.93 - 0.08 * gear), {"facecolor": "white", "edgecolor": style.RED, "linewidth": 0.6}
         axes.text(*place, words, transform=axes.transAxes, ha="center", color=style.RED, fontsize=8, bbox=box, zorder=8)
         return
@@ -486,8 +486,8 @@ _LOOKS = (
     ("tip fouling", style.RED, style.DASHED, "tip fouling"),
     ("radial assembly", style.GREY, style.DASHED, "radial assembly"),
     ("tip", style.BLACK, style.DOTTED, "tip thickness 0.2, 0.4 m"),
-    ("fillet", style.ORANGE, "-", "root fillet met"),
-    ("base circle", style.ORANGE, style.DASHED, "base circle met"),
+    ("fillet", style.ORANGE, "-", "contact at the root fillet"),
+    ("base circle", style.ORANGE, style.DASHED, "contact at the base circle"),
     ("contact ratio", style.BLUE, "-", "contact ratio 1, 1.1, 1.2"),
     ("equal sliding", style.GREEN, "-", "equal sliding"),
     ("equal root stress", style.GREEN, style.DASHED, "equal root stress"),
@@ -520,7 +520,7 @@ def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
     """Every line of the contour in the plane of both shifts, the shifts that are free, and the design."""
     panels.heading(axes, "Blocking contour")
     _free(axes, contour)
-    axes.plot([], [], color=style.GREEN, alpha=0.25, linewidth=6, label="free of all that blocks")
+    axes.plot([], [], color=style.GREEN, alpha=0.25, linewidth=6, label="permissible region")
     named: set[str] = set()
     for name, branches in contour.branches.items():
         _, color, dashes, words = next(look for look in _LOOKS if name.startswith(look[0]))

@@ -64,11 +64,11 @@ def _allowed_pressure(design: Any) -> float | None:
 
 
 def _too_much(axes: Axes, design: Any, x: Any, pressure: Any) -> None:
-    """A pressure in red where it is above what is allowed."""
+    """A pressure in red where it is above the limit."""
     limit = _allowed_pressure(design)
     if limit is not None:
         values = np.asarray(pressure, dtype=float)
-        failing.past(axes, x, values, np.nan_to_num(values) > limit, "above what is allowed")
+        failing.past(axes, x, values, np.nan_to_num(values) > limit, "above the limit")
 
 
 def _allowed(axes: Axes, design: Any) -> None:
@@ -437,7 +437,7 @@ def _words(names: Sequence[str]) -> str:
 
 def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *, first: bool) -> None:
     """Magnitude of the force of some pins, with the maximum of each."""
-    _over_turn(axes, design, "Joint forces" if first else "Joint forces, smaller ones", "force [N]")
+    _over_turn(axes, design, "Joint forces" if first else "Smaller joint forces", "force [N]")
     columns = _forces_of(design)
     for names, color, line in zip(groups, cycle(_COLORS), cycle(_LINES)):
         values = columns[names[0]]

@@ -300,7 +300,7 @@ def _key(axes: Axes, design: Any) -> None:
 
     for word in ("rise", "dwell", "return"):
         axes.bar([0.0], [0.0], color=PHASE_TINTS[word], edgecolor=style.GREY, linewidth=0.6, label=word)
-    for status, words in (("pass", "relation that holds, with its margin"), ("fail", "relation that does not hold")):
+    for status, words in (("pass", "relation met, with its margin"), ("fail", "relation not met")):
         if any(design.status_of(relation, margin) == status for relation, margin in design.margins):
             axes.plot([], [], color=_STATUS[status], linewidth=1.4, label=words)
     handles, labels = axes.get_legend_handles_labels()
@@ -383,7 +383,7 @@ def _loads(design: Any) -> Figure:
         speed.margins(y=0.15)
     if wound:
         swing = made.add_subplot(grid[1 + runs])
-        _over(swing, design, "Wind-up of the discs against the first", "wind-up [deg]")
+        _over(swing, design, "Twist of the discs relative to the first", "wind-up [deg]")
         table = design.table("wind_up_course")
         for i, column in enumerate(table.columns[2:]):
             swing.plot(
@@ -414,7 +414,7 @@ def _register(design: Any) -> Figure:
     made = panels.page(f"{design.spec.name}: register", 0.2 + 0.03 * len(order))
     axes = made.add_subplot()
     style.curves(axes, "standard deviation [mm]", "")
-    panels.heading(axes, "What gives most to the register at the print")
+    panels.heading(axes, "Main contributions to the register error at the print")
     axes.barh(np.arange(len(order)), sigma[order], color=style.BLUE)
     panels.bars_named(axes, [words[i] for i in order], 8)
     return made

@@ -71,7 +71,7 @@ def draw_design(command: str, design: MotionLawDesign) -> Figure:
         periods = np.asarray(design.table("residual", samples=600)["periods"], dtype=np.float64)
         beside = {name: law_of(name) for name in BESIDE}
         left = {name: residuals(each, periods, design.damping) for name, each in {law.name: law, **beside}.items()}
-        residual_panel(grid[-1, 0], "Vibration left, over the rise", periods, left)
+        residual_panel(grid[-1, 0], "Residual vibration over the rise", periods, left)
         grid[-1, 0].set_xlabel("natural periods per phase (faster to the left)")
     return figure
 
@@ -97,7 +97,7 @@ def write_residuals(name: str, found: Sequence[Vibration], options: Options) -> 
     from gearlink.cli.views.figures.write import write_figure
 
     def make() -> Figure:
-        figure = panels.page(f"{name}: vibration that its laws leave, over the rise")
+        figure = panels.page(f"{name}: residual vibration of its laws, over the rise")
         grid = figure.subplots(len(found), 1, squeeze=False)
         for axes, each in zip(grid[:, 0], found, strict=True):
             residual_panel(axes, f"{each.path}: {next(iter(each.residuals))}", each.speed, each.residuals)

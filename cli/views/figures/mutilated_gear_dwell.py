@@ -132,8 +132,8 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
 
 _WORDS = {
     "cycle_turns": "input revolutions per cycle",
-    "motion_turns": "input turns in motion",
-    "dwell_turns": "input turns in the dwell",
+    "motion_turns": "input revolutions in motion",
+    "dwell_turns": "input revolutions in the dwell",
     "driven_speed_ratio": "driven speed/input speed",
     "rocker_swing": "swing of the rocker",
     "min_transmission_angle": "minimum transmission angle",

@@ -95,7 +95,7 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
         style.degrees(axes, float(degrees[0]), float(degrees[-1]))
     else:
         style.full_turn(axes)
-    known = "" if np.isfinite(band).all() else "; without cam nothing is known outside the zone"
+    known = "" if np.isfinite(band).all() else "; without a cam not defined outside the zone"
     _finish(axes, design, f"Over the cycle, absolute{known}", 4)
 
 
@@ -108,7 +108,7 @@ def _finish(axes: Axes, design: Any, title: str, columns: int) -> None:
 
 def _sources(axes: Axes, design: RegisterDesign) -> None:
     """Three sigma of every source, and its mean, where the whole is greatest."""
-    panels.curves(axes, "3 sigma and mean where the whole is largest [mm]", "")
+    panels.curves(axes, "3 sigma and mean at the maximum of the total [mm]", "")
     found = _signs(design)
     order = sorted(found[0][1].rows, key=_width)
     height = 0.8 / len(found)

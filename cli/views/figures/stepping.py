@@ -144,9 +144,17 @@ def cycloidal(command: str, design: CycloidalReducer) -> Figure:
     table, disc = design.table("pins"), design.disc
     u = np.linspace(0.0, 360.0, 721)
     lever = np.abs(disc.lever(np.radians(u)))
-    _pins(levers, "Levers of the pins about the disc's centre", "lever [mm]", u, lever, table["angle"], table["lever"])
+    _pins(
+        levers,
+        "Lever arms of the pins about the centre of the disc",
+        "lever [mm]",
+        u,
+        lever,
+        table["angle"],
+        table["lever"],
+    )
     if "force" in table.columns:
-        title = "Forces of the ring pins, of the disc that carries most"
+        title = "Forces of the ring pins on the most loaded disc"
         _pins(forces, title, "force [N]", u, None, table["angle"], table["force"])
     else:
         gaps = 1000.0 * disc.gap(np.radians(u), *design.changes)
@@ -177,7 +185,7 @@ def grooved(command: str, design: Grooved) -> Figure:
     groove, limit = design.groove, design.spec.limits.pressure_angle
     shown = (
         ("output [deg]", np.degrees(output), style.BLUE, "Output"),
-        ("speed ratio [1]", speed, style.GREEN, "Speed of the output over the input's"),
+        ("speed ratio [1]", speed, style.GREEN, "Output speed over input speed"),
         ("pressure\nangle [deg]", np.degrees(groove.pressure_angle(theta)), style.RED, "Pressure angle in the groove"),
         ("curvature [1/mm]", groove.curvature(theta), style.PURPLE, "Curvature of path and roller"),
     )

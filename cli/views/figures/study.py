@@ -128,7 +128,7 @@ def _marks(study: Exploration) -> list[Line2D]:
     found = [
         Line2D([], [], marker=".", color=_GREY, markersize=5, label="satisfies everything", **of_all),
         Line2D(
-            [], [], marker="o", color=style.BLUE, markersize=4, label="kept: one design a box of the front", **of_all
+            [], [], marker="o", color=style.BLUE, markersize=4, label="kept: one design per box of the front", **of_all
         ),
     ]
     if study.knee is not None:
@@ -162,7 +162,9 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
     axes.tick_params(axis="x", pad=14, length=0)
     axes.set(ylim=(-0.12, 1.14), yticks=[])
     numbers = ", with their numbers" if len(rows) <= _NAMED else ""
-    words = f"kept designs{numbers}: variables as searched, objectives (better is up), dark: first objective best"
+    words = (
+        f"kept designs{numbers}: variables as searched, objectives (better is up); dark: best in the first objective"
+    )
     axes.set_title(words, fontsize=8)
     for spine in axes.spines.values():
         spine.set_visible(False)

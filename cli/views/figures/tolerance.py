@@ -57,7 +57,9 @@ def _course(axes: Axes, course: Course) -> None:
     places, (low, five, middle, most, high) = _closed(course)
     over, unit = course.units
     panels.curves(
-        axes, f"{course.over.replace('_', ' ')} [{over}]", f"off nominal [{unit}]" if unit != "1" else "off nominal"
+        axes,
+        f"{course.over.replace('_', ' ')} [{over}]",
+        f"deviation from nominal [{unit}]" if unit != "1" else "off nominal",
     )
     far = bool((low == low).any())
     if far:

@@ -56,7 +56,7 @@ def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
     if design.spec.drive is not None:
         return [("Oscillating cam", design.cam, 1.0)]
     if design.spec.slider is not None:
-        return [("Cam of both strokes, turning back in the return", design.cam, 1.0)]
+        return [("Cam of both strokes, reversing in the return", design.cam, 1.0)]
     if design.return_cam is None:
         return [(working, design.cam, 1.0), ("Cam of the return stroke (mirror image)", design.cam, -1.0)]
     if design.spec.layout != "twin-rocker":
@@ -601,7 +601,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.set_ylim(bottom=0.0)
     lowest = design.spec.operating_speed_min
     if lowest is not None:
-        axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=style.DOTTED, label="minimum working speed")
+        axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=style.DOTTED, label="minimum operating speed")
     axes.axvspan(-2.0, -1.0, color=style.LIGHT, alpha=0.45, label="harmful")
     panels.extreme(axes, least.place, least.value, above=True, unit=" N m", at=" 1/min")
     panels.legend_under_heading(axes, "Torque on the rocker axis", 2)

@@ -535,7 +535,7 @@ def ffmpeg() -> str:
     """
     found = shutil.which("ffmpeg")
     if found is None:
-        raise CannotWrite("mp4 needs the program ffmpeg, which is not on the PATH: install it, or take --format gif")
+        raise CannotWrite("mp4 needs the program ffmpeg, which is not on the PATH: install it, or use --format gif")
     return found
 
 

@@ -181,7 +181,7 @@ def wishes(text: str) -> tuple[Wish, ...]:
         if what == "path" and not point:
             raise WrongShow("--show path needs a point: path:POINT")
         if point and what in ("ghosts", "centres"):
-            raise WrongShow(f"--show {what} takes no point")
+            raise WrongShow(f"--show {what} needs no point")
         found.append(Wish(what, point))
     return tuple(found)
 

@@ -228,7 +228,7 @@ class Grooved(RealSpeed, Design):
 
     spec: CamGearSpec | CamLinkageSpec
     requirements = Design.requirements | {"motion", "limits.pressure_angle"}
-    larger = "enlarge the drive against its roller"
+    larger = "enlarge the drive, or use a smaller roller"
 
     at_once = 256
     alike: ClassVar[tuple[str, ...]] = ()  # keys by which drives that are sought together do not differ
@@ -362,7 +362,7 @@ class CamGear(Grooved):
     }
     alike = ("gears",)
     beside = ("_swing", "gear_data")
-    larger = "shorten the lever, turn it (lever.angle), take fewer sun teeth, or give the motion more input angle"
+    larger = "shorten the lever, turn it (lever.angle), use fewer sun teeth, or give the motion more input angle"
 
     @cached_property
     def gear_data(self) -> GearData:
@@ -410,7 +410,7 @@ class CamGear(Grooved):
                     f"(within 0 to 180 deg; at {short(math.degrees(over))} deg it is collinear with its carrier)"
                 ),
                 key="lever.angle",
-                fix="set lever.angle so that it keeps between 0 and 180 deg, or take fewer sun teeth",
+                fix="set lever.angle so that this angle stays between 0 and 180 deg, or use fewer sun teeth",
             )
 
     def path(self, theta: Reals) -> Path:

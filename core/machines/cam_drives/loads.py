@@ -25,7 +25,7 @@ class CamGearMasses(Spec):
 
     carrier: Body | None = Field(None, description="carrier, from A to the planet's axis B")
     planet: Body | None = Field(None, description="planet with its lever, from B to the roller")
-    sun: Body | None = Field(None, description="sun with all that turns with it, about D")
+    sun: Body | None = Field(None, description="sun with all parts that turn with it, about D")
 
 
 class CamGearSection(Loads):
@@ -55,7 +55,7 @@ class LinkedMasses(Spec):
     cam: Body | None = Field(None, description="shaft with both cams")
     slide_x: Body | None = Field(None, description="slide along x")
     slide_y: Body | None = Field(None, description="slide along y")
-    table: Body | None = Field(None, description="what moves along the path")
+    table: Body | None = Field(None, description="parts that move along the path")
 
 
 class LinkedCamsSection(Loads):

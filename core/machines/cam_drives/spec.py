@@ -65,8 +65,8 @@ class SunAndPlanet(PairKeys):
 class Lever(Spec):
     """The lever on the planet that carries the roller."""
 
-    length: Length = Field(description="from the planet's axis to the roller's")
-    angle: Angle = Field(description="from the direction sun to planet to the lever, at input angle 0")
+    length: Length = Field(description="distance of the roller's axis from the planet's")
+    angle: Angle = Field(description="angle from the direction sun to planet to the lever, at input angle 0")
 
 
 class CamGearSpec(DrivenSpec):
@@ -123,7 +123,7 @@ class Harmonics(Spec):
         for key in ("x", "y"):
             for place, (n, *_) in enumerate(getattr(self, key)):
                 if n < 1 or n != int(n) or n > 1000:
-                    message = f"the number of a harmonic is a whole one from 1 to 1000, not {n:g}"
+                    message = f"the order of a harmonic must be a whole number from 1 to 1000, not {n:g}"
                     raise refused(message, f"{key}[{place}][0]", "GL108")
         return self
 

@@ -128,7 +128,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def _without_links(self) -> str:
         asked = [f"`{command}`" for command in self.spec.syntheses()]
-        text = "this needs the section links: {crank, coupler, rocker, frame} (mm)"
+        text = "the command needs the section links: {crank, coupler, rocker, frame} (mm)"
         if len(asked) > 1:
             return f"{text}; {' or '.join(asked)} finds it\nkeep one of their sections"
         return f"{text}\nadd links, or a section swing or function and its synthesis"

@@ -36,8 +36,8 @@ class CrankRockerLoads(LoadsDesign):
         found = self.of_file(class_of(self.spec))
         if found.crank_range is not None:
             key = "range" if self.spec.range is not None else "function.pairs"
-            message = "loads are those of whole revolutions at even speed"
-            raise NoSolution(message, key=key, fix="omit range, with links whose crank turns")
+            message = "loads are computed for whole revolutions at constant speed"
+            raise NoSolution(message, key=key, fix="omit range, and use links whose crank turns fully")
         return found
 
     def counterweights(self) -> dict[str, complex]:

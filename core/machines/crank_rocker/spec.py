@@ -75,17 +75,17 @@ class Function(Spec):
     ) = Field(None, description="crank angle and rocker angle, three times; or name, x and both swings instead of them")
     frame: Length = Field(description="frame AD")
     name: Literal["log", "exp", "power", "sine", "cosine", "tangent"] | None = Field(
-        None, description="function y of x: the crank's swing stands for x, the rocker's for y"
+        None, description="function y of x: the crank's swing represents x, the rocker's y"
     )
     exponent: SignedLength | None = Field(None, description="of a power", json_schema_extra={"unit": "1"})
     x: Annotated[list[Plain], Field(min_length=2, max_length=2), Entries("[start, end]", "[1, 2]")] | None = Field(
         None, description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
     )
     input_swing: Annotated[float, unit("deg", gt=0, le=180)] | None = Field(
-        None, description="turn of the crank from the first x to the last"
+        None, description="rotation of the crank from the first x to the last"
     )
     output_swing: Annotated[float, unit("deg", ge=-180, le=180)] | None = Field(
-        None, description="turn of the rocker from the first y to the last, negative clockwise"
+        None, description="rotation of the rocker from the first y to the last, negative clockwise"
     )
     input_start: Angle | None = Field(
         None, description="crank angle at the first x; default: that of the smallest error"
@@ -99,7 +99,7 @@ class Function(Spec):
         needed, more = ("name", "x", "input_swing", "output_swing"), ("exponent", "input_start", "output_start")
         if self.pairs is not None:
             if wrong := next((key for key in (*needed, *more) if getattr(self, key) is not None), ""):
-                raise refused(f"{wrong} together with pairs, which are the function\nomit {wrong}", wrong)
+                raise refused(f"{wrong} together with pairs, which already define the function\nomit {wrong}", wrong)
             return self
         if missing := next((key for key in needed if getattr(self, key) is None), ""):
             if missing == "name":
@@ -116,7 +116,7 @@ class CrankRockerSpec(DrivenSpec):
     links: FourLinks | None = None
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     range: Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[from, to]", "[60, 120]")] | None = (
-        Field(None, description="crank angles between which it moves; default: whole revolutions")
+        Field(None, description="range of the crank angle; default: whole revolutions")
     )
     coupler_point: (
         Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[55, 40]")] | None

@@ -143,7 +143,7 @@ def _nowhere(p: float, q: float) -> NoSolution:
 
 
 def _easier(p: float) -> str:
-    return "take slow_stroke: same" if p < 0.0 else "take a quick_return_ratio nearer to 1"
+    return "set slow_stroke to same" if p < 0.0 else "use a quick_return_ratio nearer to 1"
 
 
 def require_task(linkage: FourBar, swing: float, ratio: float, same: bool) -> None:
@@ -221,7 +221,7 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
         sides.add(across > 0.0)
     if len(sides) > 1:
         raise NoSolution(
-            "the pairs lie on different assemblies of their linkage, which cannot pass over",
+            "the pairs need different assemblies of the linkage, and it cannot move from one to the other",
             fix="move one of function.pairs",
         )
     crank_offset, rocker_offset = (math.pi if length < 0.0 else 0.0 for length in (a, c))
@@ -246,8 +246,8 @@ def _constants(pairs: Sequence[Sequence[float]]) -> tuple[float, float, float]:
     if small:
         raise NoSolution(
             (
-                "these pairs give no linkage of finite length: two of them are alike, or rocker and "
-                "crank turn in proportion"
+                "these pairs give no linkage of finite length: two of them are equal, or rocker and crank turn in "
+                "proportion"
             ),
             fix="move one of function.pairs",
         )
@@ -337,9 +337,9 @@ def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: 
     found = [one for a in starts for b in zeros if (one := generated(wanted, a, b, least)) is not None]
     if not found:
         raise NoSolution(
-            f"no linkage goes through this function with a transmission angle of {math.degrees(least):g} deg",
+            f"no linkage generates this function with a transmission angle of {math.degrees(least):g} deg",
             key="function",
-            fix="take smaller swings, or lower limits.transmission_angle",
+            fix="use smaller swings, or lower limits.transmission_angle",
         )
     best = min((_descended(wanted, one, given, least) for one in _apart(found)), key=lambda one: one.error)
     offsets = through_pairs(best.pairs, 1.0)
@@ -473,7 +473,10 @@ class SwingSynthesis(_Synthesis):
                 found, crank = ratios_with_frame(task.frame / task.crank, p, q), task.crank
         elif p == 0.0:
             raise NoSolution(
-                ("with a quick_return_ratio of 1 the transmission angle only gets better the shorter the crank is"),
+                (
+                    "with a quick_return_ratio of 1 there is no optimum: the shorter the crank, the better the "
+                    "transmission angle"
+                ),
                 key="swing.quick_return_ratio",
                 fix="give crank and frame, or a ratio above 1",
             )
@@ -676,7 +679,7 @@ class FunctionSynthesis(_Synthesis):
         return FULL_TURN.check("warn", what, aside=f"it moves from {start} to {end} deg")
 
 
-_APART = "it opens between the pairs, which it reaches only when it is put together anew"
+_APART = "it does not close between the pairs, and reaches all of them only if it is reassembled"
 
 
 def class_of(spec: Any) -> type[CrankRocker]:

@@ -356,14 +356,14 @@ class CycloidalReducer(RealSpeed, Design):
         radius, least = self.spec.pin_radius, self.min_curvature_radius
         share = radius / least
         status: Status = "fail" if share >= 1.0 else "warn" if share > _NEAR else "pass"
-        what, fix = "pin radius against the minimum convex radius of the pitch curve", "take thinner pins"
+        what, fix = "pin radius against the minimum convex radius of the pitch curve", "use thinner pins"
         most = _NEAR * least
         return UNDERCUT.check(status, what, radius, least, "mm", side="<=", recommended=most, fix=fix)
 
     def check_gear_collision(self) -> Check:
         """GL301: ring pins beside each other."""
         gap = 2.0 * (self.spec.pin_circle_radius * math.sin(math.pi / self.spec.pins) - self.spec.pin_radius)
-        what, overlap, fix = "gap between two ring pins", "overlap of two ring pins", "take a larger pin circle"
+        what, overlap, fix = "gap between two ring pins", "overlap of two ring pins", "use a larger pin circle"
         status: Status = "fail" if gap <= 0.0 else "pass"
         return GEAR_COLLISION.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
@@ -375,10 +375,15 @@ class CycloidalReducer(RealSpeed, Design):
         root = self.spec.pin_circle_radius - self.spec.eccentricity - self.spec.pin_radius
         webs = [
             ("between two holes for output pins", 2.0 * (pins.circle_radius * math.sin(math.pi / pins.count) - hole)),
-            ("between these holes and the roots of the lobes", root - pins.circle_radius - hole),
+            ("between the holes for output pins and the roots of the lobes", root - pins.circle_radius - hole),
         ]
         if self.spec.bearing_radius is not None:
-            webs.append(("between these holes and the bearing", pins.circle_radius - hole - self.spec.bearing_radius))
+            webs.append(
+                (
+                    "between the holes for output pins and the bearing",
+                    pins.circle_radius - hole - self.spec.bearing_radius,
+                )
+            )
         for where, web in webs:
             status: Status = "fail" if web <= 0.0 else "pass"
             overlap, fix = f"overlap {where}", "reduce the radius of the output pins"

@@ -15,8 +15,8 @@ Stress = Annotated[float, unit("N/mm^2", gt=0, le=1e7)]
 class OutputPins(Spec):
     """Pins of the output in holes of the discs."""
 
-    count: Count = Field(description="how many")
-    circle_radius: Length = Field(description="radius of the circle of their centres")
+    count: Count = Field(description="number of pins")
+    circle_radius: Length = Field(description="radius of the circle of the pin centres")
     radius: Length = Field(description="radius of each pin; the holes are larger by the eccentricity")
 
 
@@ -31,8 +31,8 @@ class ReducerFriction(Spec):
 class Modification(Spec):
     """How the disc is ground otherwise than for the pins as they are."""
 
-    offset: SignedLength = Field(0.0, description="ground for pins larger by so much in radius")
-    pin_circle: SignedLength = Field(0.0, description="ground for a pin circle larger by so much in radius")
+    offset: SignedLength = Field(0.0, description="increase of the pin radius for which the disc is ground")
+    pin_circle: SignedLength = Field(0.0, description="increase of the pin circle radius for which the disc is ground")
 
 
 class ReducerMaterial(Spec):
@@ -40,7 +40,7 @@ class ReducerMaterial(Spec):
 
     elastic_modulus: Stress = Field(206_000.0, description="modulus of elasticity")
     poisson: Annotated[float, unit("1", ge=0, lt=0.5)] = Field(0.3, description="Poisson's ratio")
-    contact_limit: Stress | None = Field(None, description="maximum contact stress that it bears")
+    contact_limit: Stress | None = Field(None, description="permissible contact stress")
 
 
 class ReducerLimits(LoadLimits):
@@ -62,17 +62,25 @@ class CycloidalReducerSpec(DrivenSpec):
         1, description="discs, evenly spaced about the eccentric shaft"
     )
     fixed: Literal["ring", "output"] = Field(
-        "ring", description="ring: the output pins drive the output; output: they are held, and the ring turns"
+        "ring",
+        description=(
+            "ring: the ring is fixed and the output pins drive the output; output: the output pins are fixed and the "
+            "ring turns"
+        ),
     )
-    width: Length | None = Field(None, description="width of a disc: with torque the contact stress is given")
+    width: Length | None = Field(None, description="width of a disc: with torque the contact stress is computed")
     torque: Annotated[float, unit("N m", gt=0, le=1e12)] | None = Field(None, description="torque of the output")
     uneven: Annotated[float, unit("1", ge=1, le=10)] = Field(
-        1.0, description="torque of the disc that carries most over the mean of all"
+        1.0, description="torque of the most loaded disc over the mean of all discs"
     )
     output_pins: OutputPins | None = None
-    friction: ReducerFriction | None = Field(None, description="coefficients of friction: the efficiency is given")
+    friction: ReducerFriction | None = Field(
+        None, description="coefficients of friction: with them the efficiency is computed"
+    )
     bearing_radius: Length | None = Field(None, description="radius of the bearing between eccentric and disc")
-    modification: Modification | None = Field(None, description="of the profile: the backlash is given")
+    modification: Modification | None = Field(
+        None, description="modification of the profile: with it the backlash is computed"
+    )
     material: ReducerMaterial = ReducerMaterial.model_construct()
     limits: ReducerLimits = ReducerLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.cycloidal.loads:ReducerSection")] | None = Field(

@@ -159,7 +159,9 @@ class FollowerCams:
         if not isinstance(follower, OnSlide):
             radius = self.spec.radius or flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
-                message = f"minimum base radius: {short(radius)} mm, the curvature sets none\ngive cam.base_radius"
+                message = (
+                    f"minimum base radius: {short(radius)} mm, since the curvature sets no limit\ngive cam.base_radius"
+                )
                 raise NoSolution(message, key="cam.size")
             return Place(radius)
         if self.spec.radius is not None:
@@ -186,7 +188,7 @@ class FollowerCams:
             else:
                 self._require_distance(height + max(lowest, height_at(back, offset)) + whole)
         if height + self.lifts[0] <= 0.0:
-            message = "these limits require no cam, the motion being so slow"
+            message = "these limits set no minimum size, since the motion is so slow"
             raise NoSolution(message, key="cam.size", fix=f"give {self.spec.radius_key}")
         return Place(math.hypot(offset, height), offset)
 
@@ -204,7 +206,7 @@ class FollowerCams:
         follower = self.follower
         if isinstance(follower, OscillatingFlat):
             return self._rocking_face_place(follower)
-        assert isinstance(follower, OnRocker), "no other follower rocks"
+        assert isinstance(follower, OnRocker), "no other follower oscillates"
         if follower.center_distance is None:
             return self._found_pivot(follower)
         if self.spec.radius is not None:

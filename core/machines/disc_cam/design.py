@@ -497,7 +497,9 @@ class DiscCamDesign(OfFollower, Design):
             return
         speed = closing.lift_off_speed
         if speed is None:
-            yield LIFT_OFF.check("pass", "no speed lifts the follower off its cam", None, spec.speed, "1/min")
+            yield LIFT_OFF.check(
+                "pass", "the follower does not lift off its cam at any speed", None, spec.speed, "1/min"
+            )
             return
         status: Status = "fail" if speed <= spec.speed else "warn" if speed < _RESERVE * spec.speed else "pass"
         fix = ""
@@ -536,7 +538,7 @@ class DiscCamDesign(OfFollower, Design):
             return
         roller, hollow = self.cams.main.roller_radius, self.cams.hollow
         if hollow is None:
-            what = "the pitch curve is convex: the outer wall is whole"
+            what = "the pitch curve is convex: the outer wall is not undercut"
             yield OUTER_WALL.check("pass", what, 0.0, roller, "mm", shown=NO_NUMBER)
             return
         least = hollow[0] - roller

@@ -96,7 +96,7 @@ class FollowerCamLoads(_Loads):
         self.require_pair()
         sources = Sources(self.section, self.own_links, self.sliding)
         if not self.masses and not sources.any and self.spec.spring is None:
-            message = "without a mass, a spring or a force there is no load"
+            message = "no loads without a mass, a spring or a force"
             raise MissingSection(message, key="follower", fix="give follower.mass or spring")
         made = Machine(
             self.moving, self.masses, sources, gravity_of(self.section), self.speed, self.turns, self.friction,
@@ -167,7 +167,7 @@ class FollowerCamLoads(_Loads):
         """What holds it on one side."""
         if self.has_pair:
             return super().side_remedy
-        return f"{self.closing_remedy}, which holds the roller on one wall"
+        return f"{self.closing_remedy}, which keeps the roller on one wall"
 
     def called(self, name: str) -> str:
         """A roller, a flat face or a knife edge."""

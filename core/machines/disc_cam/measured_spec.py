@@ -42,8 +42,8 @@ _FEWEST = 5
 class OscillatingFollower(Spec):
     """A roller on a rocker; the cam axis is the origin."""
 
-    type: Literal["oscillating"] = Field(description="how the follower moves")
-    pivot: Point = Field(description="axis of the rocker, seen from the cam axis")
+    type: Literal["oscillating"] = Field(description="motion of the follower")
+    pivot: Point = Field(description="axis of the rocker in coordinates of the cam axis")
     arm: Length = Field(description="pivot to roller centre")
     side: Assembly = Field(1, description="1: roller centre left of the direction from cam axis to pivot; -1: right")
     inertia: FollowerInertia | None = Field(
@@ -54,7 +54,7 @@ class OscillatingFollower(Spec):
 class TranslatingFollower(Translating):
     """A roller on a slide; the cam axis is the origin."""
 
-    type: Literal["translating"] = Field(description="how the follower moves")
+    type: Literal["translating"] = Field(description="motion of the follower")
     offset: SignedLength = Field(0.0, description="distance of the line of travel from the cam axis on its right")
 
 
@@ -79,7 +79,7 @@ class Profile(Spec):
                 raise refused(f"angles of a profile ascend: {after:.9g} deg follows {before:.9g} deg", f"points[{k}]")
         if angles[-1] - angles[0] >= 360.0:
             message = f"angles of a profile: over {angles[-1] - angles[0]:.9g} deg (below 360 deg)"
-            raise refused(f"{message}\nleave out the points that come again after a revolution", "points")
+            raise refused(f"{message}\nomit the points that repeat after a revolution", "points")
         for k, (_, radius) in enumerate(self.points):
             if radius <= 0.0:
                 raise refused(f"radius of a profile: {radius:.9g} mm (above 0)", f"points[{k}]")
@@ -92,7 +92,7 @@ class MeasuredCamSpec(TolerancedSpec):
     kind: Literal["measured-cam"]
     follower: Annotated[
         OscillatingFollower | TranslatingFollower,
-        Field(discriminator="type", description="the follower that runs on the cam"),
+        Field(discriminator="type", description="the follower on the cam"),
     ]
     roller_radius: Length = Field(description="radius of the roller")
     sense: Assembly = Field(1, description="1: the cam turns counter-clockwise; -1: clockwise")
@@ -103,7 +103,7 @@ class MeasuredCamSpec(TolerancedSpec):
     dwell_tolerance: Distance = Field(0.02, description="range of the follower within a dwell: mm, oscillating deg")
     speed: Speed | None = Field(None, description="speed of the cam")
     shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not checked")
-    closure: Literal["spring", "groove"] = Field("spring", description="what holds the follower on the cam")
+    closure: Literal["spring", "groove"] = Field("spring", description="what keeps the follower on the cam")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()
     loads: Annotated[Any, Deferred("studies.loads.spec:CamLoads")] | None = Field(

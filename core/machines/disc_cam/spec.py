@@ -57,20 +57,20 @@ class OnSlide(Translating):
 class TranslatingRoller(OnSlide):
     """A roller on a slide."""
 
-    type: Literal["translating-roller"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["translating-roller"] = Field(description="motion of the follower, and its contact with the cam")
     roller_radius: Length = Field(description="radius of the roller")
 
 
 class TranslatingKnifeEdge(OnSlide):
     """A knife edge on a slide."""
 
-    type: Literal["translating-knife-edge"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["translating-knife-edge"] = Field(description="motion of the follower, and its contact with the cam")
 
 
 class TranslatingFlat(Translating):
     """A flat face across the travel."""
 
-    type: Literal["translating-flat"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["translating-flat"] = Field(description="motion of the follower, and its contact with the cam")
     face: Reach | None = Field(None, description="reach of the face to the left and to the right of the travel")
 
 
@@ -86,23 +86,23 @@ class OnRocker(Oscillating):
 class OscillatingRoller(OnRocker):
     """A roller on a rocking arm."""
 
-    type: Literal["oscillating-roller"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["oscillating-roller"] = Field(description="motion of the follower, and its contact with the cam")
     roller_radius: Length = Field(description="radius of the roller")
 
 
 class OscillatingKnifeEdge(OnRocker):
     """A knife edge on a rocking arm."""
 
-    type: Literal["oscillating-knife-edge"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["oscillating-knife-edge"] = Field(description="motion of the follower, and its contact with the cam")
 
 
 class OscillatingFlat(Oscillating):
     """A flat face on a rocking arm."""
 
-    type: Literal["oscillating-flat"] = Field(description="how the follower moves, and what touches the cam")
+    type: Literal["oscillating-flat"] = Field(description="motion of the follower, and its contact with the cam")
     center_distance: Length = Field(description="cam axis to pivot")
     face_offset: SignedLength = Field(0.0, description="distance of the face from the pivot, away from the cam")
-    face: Reach | None = Field(None, description="from where to where the face reaches, from the pivot along it")
+    face: Reach | None = Field(None, description="[start, end] of the face, measured along it from the pivot")
 
 
 Follower = Annotated[
@@ -147,9 +147,11 @@ class ReturnRoller(Spec):
     """The second roller of a conjugate pair."""
 
     radius: Length = Field(description="radius of the roller")
-    distance: Length | None = Field(None, description="of a slide: distance of both rollers; default: of equal cams")
-    arm: Length | None = Field(None, description="of a rocker: pivot to roller centre")
-    angle: Angle | None = Field(None, description="of a rocker: from the first roller's arm to the second's")
+    distance: Length | None = Field(
+        None, description="translating: distance of both rollers; default: that of equal cams"
+    )
+    arm: Length | None = Field(None, description="oscillating: pivot to roller centre")
+    angle: Angle | None = Field(None, description="oscillating: angle from the first roller's arm to the second's")
 
 
 class Spring(Spec):
@@ -162,7 +164,7 @@ class Spring(Spec):
         0.0, description="rate (oscillating: N m/rad)"
     )
     least_force: Annotated[float, unit("N", ge=0), OfFollower("N m")] | None = Field(
-        None, description="minimum force that is to stay (oscillating: N m), instead of preload"
+        None, description="minimum contact force required (oscillating: N m), instead of preload"
     )
 
     @model_validator(mode="after")
@@ -185,7 +187,7 @@ class Errors(Spec):
     key: Annotated[float, unit("deg", ge=0)] = Field(0.0, description="angular error of the cam on its shaft")
     roller_radius: Distance = Field(0.0, description="error of the roller's radius")
     waves: Annotated[int, unit("1", ge=1, le=10_000)] | None = Field(
-        None, description="waves of the profile a revolution"
+        None, description="waves of the profile per revolution"
     )
 
 
@@ -226,9 +228,11 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     profile: CamProfile | None = Field(
         None, description="arcs of the cam, from which its motion and radius follow, instead of motion"
     )
-    follower: Follower = Field(description="what the cam moves: roller, knife edge or flat face, sliding or rocking")
+    follower: Follower = Field(description="follower: roller, knife edge or flat face, translating or oscillating")
     cam: CamBody = Field(CamBody.model_construct(), description="sense and size of the cam")
-    closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
+    closure: Literal["spring", "groove", "conjugate"] = Field(
+        "spring", description="what keeps the follower on the cam"
+    )
     return_roller: ReturnRoller | None = Field(None, description="the second roller of a conjugate pair")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
     errors: Errors | None = Field(None, description="errors of the cam as manufactured")
@@ -281,7 +285,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     def _runs(self) -> Self:
         if self.motion is not None:
             if self.profile is not None:
-                raise refused("profile makes the motion\nomit one of them", "profile")
+                raise refused("profile determines the motion\nomit one of them", "profile")
             require_closed(self.motion, self.initial_lift)
             return self
         if self.profile is None:
@@ -289,7 +293,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
             message += "cycloidal}, or a table; or profile, such as {type: tangent}"
             raise refused(message, "motion", "GL106")
         if self.oscillates:
-            raise refused("profile goes with a follower that slides\ngive motion", "profile")
+            raise refused("profile applies only to a follower that slides\ngive motion", "profile")
         if self.initial_lift:
             raise refused("a profile begins at lift 0\nomit initial_lift", "initial_lift")
         return self
@@ -300,16 +304,16 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if self.profile is not None:
             for key in ("prime_radius", "base_radius", "size"):
                 if getattr(cam, key) is not None:
-                    raise refused(f"profile has the radius of the cam\nomit cam.{key}", f"cam.{key}")
+                    raise refused(f"profile determines the radius of the cam\nomit cam.{key}", f"cam.{key}")
             return self
         wanted, other = ("prime_radius", "base_radius") if self.rolls else ("base_radius", "prime_radius")
         if (given := getattr(cam, other)) is not None:
-            message = f"{other} goes with a roller\ngive cam.base_radius instead"
+            message = f"{other} applies only to a roller\ngive cam.base_radius instead"
             if self.rolls:
                 whole = given + getattr(self.follower, "roller_radius", 0.0)
                 message = (
-                    f"{other} goes with a flat face or an edge\n"
-                    f"give cam.prime_radius: {whole:g} (with the roller's radius)"
+                    f"{other} applies only to a flat face or an edge\ngive cam.prime_radius: {whole:g} (with the "
+                    "roller's radius)"
                 )
             raise refused(message, f"cam.{other}")
         if (getattr(cam, wanted) is None) == (cam.size is None):
@@ -330,7 +334,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
             if follower.offset == "best":
                 if size is None:
                     raise refused(
-                        "offset: best goes with cam.size\ngive cam.size, or a number in mm", "follower.offset"
+                        "offset: best applies only with cam.size\ngive cam.size, or a number in mm", "follower.offset"
                     )
             elif (most := self.radius) is not None and abs(follower.offset) >= most:
                 message = (
@@ -346,7 +350,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     def _closed(self) -> Self:
         roller = self.return_roller
         if not self.rolls and self.closure != "spring":
-            raise refused(f"{self.closure} goes with a roller\nset closure to spring", "closure")
+            raise refused(f"{self.closure} applies only to a roller\nset closure to spring", "closure")
         if (roller is not None) != (self.closure == "conjugate"):
             message = (
                 "give return_roller: {radius: ...}"
@@ -360,7 +364,9 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
                 if getattr(roller, key) is not None:
                     raise refused(f"this follower's return roller has no {key}\nomit it", f"return_roller.{key}")
             if any(getattr(roller, key) is None for key in own):
-                raise refused("the return roller of a rocker has arm and angle\ngive both", "return_roller")
+                raise refused(
+                    "the return roller of an oscillating follower needs arm and angle\ngive both", "return_roller"
+                )
         return self
 
     @model_validator(mode="after")
@@ -368,7 +374,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if not self.is_edge:
             return self
         if self.errors is not None and self.errors.roller_radius:
-            raise refused("roller_radius goes with a roller\nomit it", "errors.roller_radius")
+            raise refused("roller_radius applies only to a roller\nomit it", "errors.roller_radius")
         material = None if self.loads is None else self.loads.material
         pressed = {
             "roller": None if self.loads is None else self.loads.roller,
@@ -377,7 +383,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         for key, given in pressed.items():
             if given is not None:
                 message = (
-                    f"a knife edge has no contact pressure, its radius being 0\nomit loads.{key}, or take a roller"
+                    f"a knife edge has no contact pressure, since its radius is 0\nomit loads.{key}, or use a roller"
                 )
                 raise refused(message, f"loads.{key}")
         return self

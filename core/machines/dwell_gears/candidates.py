@@ -22,7 +22,7 @@ def mutilated(design: MutilatedGearDwell) -> Table:
     """Driven gears and groups of teeth for the required times."""
     spec = design.asked
     if spec.target is None or spec.reduction is not None:
-        raise nothing_sought("give target: {motion_turns, dwell_turns} and leave out reduction and teeth")
+        raise nothing_sought("give target: {motion_turns, dwell_turns} and omit reduction and teeth")
     keys = {"gears.groups": ("groups", "1"), "gears.driven": ("driven_teeth", "1")}
     driven = sorted({*_DRIVEN, design.driven_teeth})
     rows = pairs(sorted({*_GROUPS, spec.gears.groups}), driven)
@@ -33,7 +33,7 @@ def mutilated(design: MutilatedGearDwell) -> Table:
 def hypocycloid(design: HypocycloidDwell) -> Table:
     """The rods of every rule, and those that are found for a quality."""
     if design.spec.is_arm or design.spec.point.ratio != 1.0:
-        raise nothing_sought("rods are sought of a slider whose point lies on the pitch circle")
+        raise nothing_sought("the rod is found only for a slider whose point lies on the pitch circle")
     rules = ["tangent-circle", "osculating", "minimax"]
     qualities = ["least-ripple", *(["widest-dwell"] if design.spec.dwell.tolerance is not None else [])]
     rows = [({"rule": rule}, None) for rule in rules] + [(None, {"quality": quality}) for quality in qualities]

@@ -229,7 +229,7 @@ def require_cusps(planet_radius: float, cusps: int) -> None:
                 f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight "
                 "line, with 1 it is at rest"
             ),
-            fix="take 3 times or more",
+            fix="use 3 times or more",
         )
 
 
@@ -274,7 +274,7 @@ def tangent_circle(planet_radius: float, cusps: int, angle: float | None = None)
     y, rise = _point(planet_radius, cusps, half).imag, _advance(planet_radius, cusps, half)
     if rise <= 0.0 or half <= 0.0:
         raise NoSolution(
-            f"no circle touches the arc over {short(math.degrees(2.0 * half))} deg of the carrier",
+            f"no circle fits the arc over {short(math.degrees(2.0 * half))} deg of the carrier",
             fix=f"specify at most the whole arc, {safely_below(360.0 / cusps)} deg",
         )
     return (rise * rise + y * y) / (2.0 * rise)
@@ -677,7 +677,7 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
                     "curve does not close in one revolution of the carrier"
                 ),
                 key="gears.ring",
-                fix=f"take a whole multiple, for example {near * planet}",
+                fix=f"use a whole multiple, for example {near * planet}",
             )
         with at_key("gears.ring"):
             require_cusps(self.point_radius, ring // planet)
@@ -906,7 +906,7 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""
-        remedy = "lengthen the rod, or take a curve with fewer cusps (fewer ring teeth)"
+        remedy = "lengthen the rod, or use a curve with fewer cusps (fewer ring teeth)"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
 
 

@@ -28,7 +28,7 @@ class HypocycloidGears(TrainKeys):
     @model_validator(mode="after")
     def _planet_goes_into_ring(self) -> Self:
         if self.ring <= self.planet:
-            message = f"a ring gear of {self.ring} teeth does not take a planet of {self.planet}"
+            message = f"a planet of {self.planet} teeth does not fit into a ring gear of {self.ring}"
             raise refused(f"{message}\nset gears.ring to {3 * self.planet}", "ring")
         return self
 
@@ -79,7 +79,7 @@ class DrivingPoint(Spec):
     """The point of the planet that moves the output."""
 
     ratio: Annotated[float, unit("1")] = Field(
-        1.0, description="its distance from the planet's axis over the pitch radius"
+        1.0, description="distance of the point from the planet's axis over the pitch radius"
     )
 
 
@@ -114,13 +114,13 @@ class HypocycloidDwellSpec(DrivenSpec):
         if self.is_arm:
             for key in ("rod", "target"):
                 if getattr(self, key) is not None:
-                    raise refused(f"{key} goes with output: slider\nomit it", key)
+                    raise refused(f"{key} applies only with output: slider\nomit it", key)
             return self
         if self.point.ratio != 1.0 and (self.target is not None or self.rod is None or self.rod.rule is not None):
-            message = "rules and targets are those of a point on the pitch circle\ngive rod.length, or point.ratio 1"
+            message = "rod.rule and target apply only to a point on the pitch circle\ngive rod.length, or point.ratio 1"
             raise refused(message, "point.ratio")
         if self.rod is None and self.target is None:
-            raise refused("give rod, or target from which it is found", "rod", "GL106")
+            raise refused("give rod, or target to have it found", "rod", "GL106")
         if self.rod is not None and self.target is not None:
             raise refused("rod and target exclude each other\nomit rod to have it found", "rod")
         wants_tolerance = self.target is not None and self.target.quality == "widest-dwell"

@@ -93,7 +93,7 @@ def teeth_for_times(
                 f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.4g')} in {short(share)} "
                 f"of a cycle with a wheel of at most {most_teeth} teeth"
             ),
-            fix="raise most_teeth, take fewer groups, or another driven_turn",
+            fix="raise most_teeth, use fewer groups, or another driven_turn",
         )
     _, full, n, z = min(found)
     return full, n, z, z // math.gcd(z, n)
@@ -148,7 +148,7 @@ class MutilatedGear:
         raise NoSolution(
             f"{amount(self.groups, 'group')} of {_teeth(self.group_teeth)} fill the wheel of "
             f"{_teeth(self.full_teeth)}: the driven gear never stops",
-            fix=f"take {remedy}, or more full teeth than {used}",
+            fix=f"use {remedy}, or more full teeth than {used}",
         )
 
     def _require_locking(self) -> None:
@@ -161,7 +161,7 @@ class MutilatedGear:
                 f"{_teeth(self.group_teeth)} advance the driven gear {short(self.group_teeth / self.driven_teeth)} "
                 f"revolutions; it must stop at a locking arc ({self.stops} of them)"
             ),
-            fix=f"set gears.group_teeth to a multiple of {step}, or take {amount(needed, 'stop')}",
+            fix=f"set gears.group_teeth to a multiple of {step}, or use {amount(needed, 'stop')}",
         )
 
     @property
@@ -382,7 +382,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
         if factor is None:
             return
         what, aside = "stress factor of the tooth next to a gap on its generated fillet", "in F_t/(b m)"
-        note = "the boundary integral is its only rating: ISO 6336 has no section for it"
+        note = "rated only by the boundary integral: ISO 6336 has no root section for it"
         yield TRUE_FILLET.check("pass", what, factor, aside=aside, note=note)
 
     @cached_property

@@ -68,9 +68,9 @@ class MutilatedGearLoads(LoadsDesign):
         turns = (cycles * self.design.cycles_to_repeat).numerator
         if not cycles or turns > _MOST_MOTIONS * cycles:
             raise NoSolution(
-                f"the motion repeats only after more than {_MOST_MOTIONS} starts: not computed",
+                f"the motion repeats only after more than {_MOST_MOTIONS} starts, which are not computed",
                 key="reduction",
-                fix="take a reduction of small whole numbers",
+                fix="use a reduction of small whole numbers",
             )
         return homecoming(turns, "input and linkage return to their start", "reduction", "round the reduction")
 

@@ -35,12 +35,11 @@ class MutilatedGears(TrainKeys):
         description="number of teeth on the whole pitch circle of the wheel; chosen where required times are given",
     )
     group_teeth: Teeth | None = Field(None, description="teeth in a group; chosen where required times are given")
-    groups: Teeth = Field(1, description="groups evenly round the wheel")
-    driven: Teeth | None = Field(
-        None, description="teeth of the driven gear; with required times the default is chosen too"
-    )
+    groups: Teeth = Field(1, description="groups of teeth, evenly spaced on the wheel")
+    driven: Teeth | None = Field(None, description="teeth of the driven gear; default with required times: chosen")
     stops: Teeth | None = Field(
-        None, description="locking arcs evenly round the driven gear; default: 1, or as required times need them"
+        None,
+        description="locking arcs, evenly spaced on the driven gear; default: 1, or as many as the required times need",
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
@@ -62,7 +61,7 @@ class WantedTimes(Spec):
     driven_turn: Turns = Field(1.0, description="turns of the driven gear in a motion, a fraction of whole teeth")
     most_teeth: Teeth = Field(200, description="maximum number of teeth on the whole pitch circle of the wheel")
     tolerance: Annotated[float, unit("1", gt=0, lt=1)] = Field(
-        0.01, description="maximum miss of either, as a share of it"
+        0.01, description="maximum relative deviation of motion or dwell"
     )
 
     @model_validator(mode="after")
@@ -86,7 +85,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     )
     target: WantedTimes | None = Field(None, description="required motion and dwell")
     gears: MutilatedGears
-    links: FourLinks | None = Field(None, description="the four-bar that the driven gear turns")
+    links: FourLinks | None = Field(None, description="the four-bar that the driven gear drives")
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     start_angle: Angle | None = Field(
         None, description="crank angle at which the crank is at rest; default: crank and coupler stretched"
@@ -113,7 +112,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
             return self
         given = [key for key in ("reduction", "gears.full_teeth", "gears.group_teeth") if values[key] is not None]
         if given:
-            raise refused(f"{given[0]} follows from the times that target requires\nomit it", given[0])
+            raise refused(f"{given[0]} follows from the times in target\nomit it", given[0])
         timed = self.target.motion_time is not None or self.target.dwell_time is not None
         if timed and self.input_speed is None:
             message = "a time needs the input's speed\ngive input_speed, or turns instead of times"
@@ -134,5 +133,5 @@ class MutilatedGearDwellSpec(DrivenSpec):
     @model_validator(mode="after")
     def _shaft_of_the_rocker(self) -> Self:
         if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
-            raise refused("D_radius goes with the four-bar\ngive links, or omit it", "shafts.D_radius")
+            raise refused("D_radius applies only with the four-bar\ngive links, or omit it", "shafts.D_radius")
         return self

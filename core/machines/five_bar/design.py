@@ -436,12 +436,12 @@ class FiveBarParts(Meshed):
         if not ordered:
             what, fix = (
                 "the input angles neither rise nor fall in the order of the poses",
-                "reorder target.poses, or name fewer links in target.keep",
+                "reorder target.poses, or list fewer links in target.keep",
             )
         elif not one:
             what, fix = (
                 "two poses need different assemblies of the links",
-                "change a pose, or name fewer links in target.keep",
+                "change a pose, or list fewer links in target.keep",
             )
         yield POSE_ORDER.check("pass" if one and ordered else "fail", what, fix=fix)
 
@@ -927,8 +927,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         links = (bar.coupler, bar.follower) if self.is_path else (bar.follower, bar.output)
         room = min(sum(links) - self.span_max, self.span_min - abs(links[0] - links[1]))
         possible = f"{short(abs(links[0] - links[1]))} to {short(sum(links))} mm"
-        aside = f"dyad spans {short(self.span_min)} to {short(self.span_max)} mm of {possible}"
-        return CLOSURE.check("pass", "margin to the limits of the dyad", room, 0.0, "mm", aside=aside)
+        aside = f"span of the dyad {short(self.span_min)} to {short(self.span_max)} mm, possible {possible}"
+        return CLOSURE.check("pass", "margin of the dyad's span to its limits", room, 0.0, "mm", aside=aside)
 
     def _pose_checks(self) -> Iterator[Check]:
         """The place of every pose, and its angle where the poses are met exactly or the file limits it."""
@@ -966,7 +966,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         folded = abs(place - self.span_min_at) <= abs(place - self.span_max_at)
         change = f"{'shorten' if folded else 'lengthen'} {links}"
         if self._fits:
-            change = "start from other links, or take other gears: the links are found for the target"
+            change = "start from other links, or use other gears; the target determines the links"
         limit, at = self.spec.limits.transmission_angle, f"input angle {short(math.degrees(place))} deg"
         return transmission_check(self.min_transmission_angle, limit, change, at=at)
 

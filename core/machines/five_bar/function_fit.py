@@ -95,7 +95,7 @@ def fit_function(
     if best is None:
         raise NoSolution(
             ("no five-bar was found that generates this function with the required transmission angle"),
-            fix="lower limits.transmission_angle, take less input_swing or output_swing, or other gears",
+            fix="reduce limits.transmission_angle, input_swing or output_swing, or use other gears",
         )
     return replace(best, rounds=tuple(rounds))
 
@@ -459,7 +459,7 @@ def five_bar_for_positions(
     found = [bar for candidate in _candidates(start, positions) for bar in _meeting(candidate, positions)]
     if not found:
         raise NoSolution(
-            f"no five-bar was found that meets the {len(positions)} positions in one unbroken motion",
+            f"no five-bar was found that meets the {len(positions)} positions in one continuous motion",
             fix=(
                 "omit one, bring them nearer to each other, or start from other links (coupler, "
                 "follower, output, frame, phase)"
@@ -472,7 +472,7 @@ def _require(positions: Positions) -> None:
     if not 2 <= len(positions) <= MOST_POSITIONS:
         raise NoSolution(
             f"{amount(len(positions), 'position')}",
-            fix=f"give two to {MOST_POSITIONS}, as many as there are links to choose",
+            fix=f"give two to {MOST_POSITIONS}, as many as there are free links",
         )
     for (one, _), (other, _) in pairwise(positions):
         if not one < other:

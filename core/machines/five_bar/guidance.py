@@ -165,11 +165,13 @@ def circumcenter(points: Sequence[complex] | Points) -> complex:
     first, second, third = (complex(each) for each in points)
     if first == second:
         raise NoSolution(
-            "two of the three poses show the pivot at one position: they have no common centre of rotation"
+            "two of the three poses have the pivot at one position: they have no common centre of rotation"
         )
     w = (third - first) / (second - first)
     if abs(w.imag) <= _COLLINEAR * max(1.0, abs(w)):
-        raise NoSolution("the three poses turn about no point: from the body the pivot moves along a line")
+        raise NoSolution(
+            "the three poses have no common centre of rotation: relative to the body the pivot moves along a line"
+        )
     return first + (second - first) * (w - abs(w) ** 2) / (2j * w.imag)
 
 
@@ -183,7 +185,7 @@ def guide(task: Task) -> Guidance:
     found = list(_three(task) if exact else _searched(task))
     if not found:
         raise NoSolution(
-            "no five-bar goes through these poses\nchange target.poses, or name fewer links in target.keep"
+            "no five-bar goes through these poses\nchange target.poses, or list fewer links in target.keep"
         )
     return max(found, key=lambda each: each.quality)
 

@@ -39,7 +39,7 @@ class FiveBarLoads(LoadsDesign):
     def own_links(self) -> tuple[str, ...]:
         """The links that this design has."""
         if not self.has_idler and self.section.links.idler is not None:
-            raise NoSolution("this five-bar has no idler", key="loads.links.idler", fix="leave its mass out")
+            raise NoSolution("this five-bar has no idler", key="loads.links.idler", fix="omit its mass")
         return self.links if self.has_idler else self.links[:-1]
 
     @property

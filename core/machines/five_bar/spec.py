@@ -132,7 +132,7 @@ class FiveBarTarget(Spec):
             Field(min_length=3, max_length=200),
         ]
         | None
-    ) = Field(None, description="of a path: points [x, y] through which the coupler point shall run, any order")
+    ) = Field(None, description="of a path: points [x, y] through which the coupler point must pass, in any order")
     positions: (
         Annotated[
             list[Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[input, output]")]],
@@ -156,17 +156,17 @@ class FiveBarTarget(Spec):
             Field(min_length=2, max_length=12),
         ]
         | None
-    ) = Field(None, description="of a path: poses [x, y, angle] through which a body on the coupler shall go")
+    ) = Field(None, description="of a path: poses [x, y, angle] through which a body on the coupler must pass")
     frame: Literal["fixed", "free"] = Field("fixed", description="of poses: A and E as in the file, or anywhere")
     keep: list[Literal["links.input", "links.follower", "links.output", "phase"]] = Field(
         [], description="of poses: keys of the file that stay as they are"
     )
     angle_tolerance: Annotated[float, unit("deg", gt=0, le=180)] | None = Field(
-        None, description="of poses: maximum angle by which the body may miss one"
+        None, description="of poses: maximum angular deviation of the body from a pose"
     )
     tolerance: Length | None = Field(None, description="path: maximum distance of a point that is accepted")
     budget: Annotated[float, unit("s", gt=0, le=3600)] | None = Field(
-        None, description="time that the search of a function or of timed points may take; default: a fixed effort"
+        None, description="time limit of the search for a function or for timed points; default: a fixed effort"
     )
 
     @model_validator(mode="after")
@@ -185,7 +185,7 @@ class FiveBarTarget(Spec):
         if self.input_angles is not None and self.input_angles[0] != 0.0:
             raise refused("input angles count from the first point's, 0", "input_angles[0]", "GL108")
         if self.budget is not None and not timed and (self.function is None or self.function.links == "given"):
-            message = "budget goes with a function whose links are sought, or with timed points\nomit it"
+            message = "budget applies only to a function whose links are found, or to timed points\nomit it"
             raise refused(message, "budget")
         return self
 
@@ -218,7 +218,7 @@ class GearedFiveBarSpec(DrivenSpec):
             if (getattr(value, name) if name else value) is None:
                 raise refused(f"the form {self.form} needs {needed}", key, "GL106")  # fmt: skip
         _refuse(self.gears.idler is None and self.shafts is not None and self.shafts.O_radius is not None,
-                "shafts.O_radius", "O_radius goes with an idler\ngive gears.idler, or omit it")  # fmt: skip
+                "shafts.O_radius", "O_radius applies only with an idler\ngive gears.idler, or omit it")  # fmt: skip
         if self.form == "path":
             self._path()
         else:
@@ -228,12 +228,12 @@ class GearedFiveBarSpec(DrivenSpec):
     def _path(self) -> None:
         gears, links = self.gears, self.links
         _refuse(self.target is not None and self.target.positions is not None, "target.positions",
-                "positions go with form: function\ngive points")  # fmt: skip
+                "positions apply only to form: function\ngive points")  # fmt: skip
         _refuse(self.target is not None and self.target.function is not None, "target.function",
-                "a function goes with form: function\ngive points")  # fmt: skip
-        _refuse(self.range is not None, "range", "range goes with form: function; a path has its whole period")
+                "a function applies only to form: function\ngive points")  # fmt: skip
+        _refuse(self.range is not None, "range", "range applies only to form: function; a path covers its whole period")
         _refuse(any(z is not None for z in (gears.planet, gears.sun, gears.ring)), "gears",
-                "planet, sun and ring go with form: function\ngive input and output")  # fmt: skip
+                "planet, sun and ring apply only to form: function\ngive input and output")  # fmt: skip
         _refuse(gears.mesh == "internal" and gears.idler is not None, "gears.mesh",
                 "an idler meshes outside both gears\nomit mesh or idler")  # fmt: skip
         _refuse(gears.mesh == "internal" and gears.input == gears.output, "gears.output",
@@ -244,17 +244,17 @@ class GearedFiveBarSpec(DrivenSpec):
     def _function(self) -> None:
         gears = self.gears
         _refuse(self.target is not None and self.target.poses is not None, "target.poses",
-                "poses go with form: path\ngive positions")  # fmt: skip
+                "poses apply only to form: path\ngive positions")  # fmt: skip
         _refuse(self.target is not None and self.target.points is not None, "target.points",
-                "points go with form: path\ngive positions")  # fmt: skip
+                "points apply only to form: path\ngive positions")  # fmt: skip
         sought = self.target is not None and self.target.function is not None
         judged = sought and self.target is not None and self.target.function.links == "given"  # type: ignore[union-attr]
         _refuse(sought and not judged and self.range is not None, "range",
-                "the interval of a function starts where it fits best\nomit range")  # fmt: skip
+                "the start of the interval of a function is found\nomit range")  # fmt: skip
         _refuse(judged and self.range is None, "range",
                 "given links are evaluated from range.start on\ngive range: {start, end}")  # fmt: skip
         _refuse(any(z is not None for z in (gears.input, gears.output, gears.idler)), "gears",
-                "input, output and idler go with form: path\ngive planet and sun or ring")  # fmt: skip
+                "input, output and idler apply only to form: path\ngive planet and sun or ring")  # fmt: skip
         _refuse((gears.sun is None) == (gears.ring is None), "gears.sun", "give either sun or ring")
         _refuse(gears.ring is not None and gears.planet is not None and gears.ring <= gears.planet, "gears.ring",
                 "a ring gear needs more teeth than the gear in it\nchange ring or planet")  # fmt: skip

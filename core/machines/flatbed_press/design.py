@@ -109,7 +109,7 @@ def return_overlap(design: FlatbedPress) -> Iterator[Check]:
         beneath = places[(passed > 0.0) & (passed < length)]
         if beneath.size:
             low, high = (math.degrees(end) % 360.0 for end in beneath[[0, -1]])
-            what, aside = "revolutions of the cylinder per sheet", "the printed area passes the forme again"
+            what, aside = "revolutions of the cylinder per sheet", "the print area passes the forme again"
             at, fix = f"input angles {short(low)} to {short(high)} deg", _whole_turns(design, 1)
             yield REGISTER.check("warn", what, float(turns), 1.0, aside=aside, at=at, fix=fix)
             return
@@ -193,7 +193,7 @@ def _with_base_radius(design: FlatbedPress, radius: float) -> str:
     """In words, the minimum base radius [mm], where a press with such a cam can be built."""
     if can_be_built(design.spec, (("cam.base_radius", radius),), greatest_length(design.spec)):
         return f"set cam.base_radius to at least {safely_above(radius)} mm"
-    return f"allow a larger pressure angle (a cam.base_radius of {safely_above(radius)} mm is more than can be built)"
+    return f"allow a larger pressure angle (a cam.base_radius of {safely_above(radius)} mm is too large to build)"
 
 
 def _base_radius_for_roller(design: FlatbedPress) -> str:
@@ -706,7 +706,9 @@ _OF_SIZE = ("cam.base_radius", "cam")
 
 def _require_rest(return_law: Law) -> None:
     if return_law.kind != "rest-to-rest":
-        raise NoSolution(f"the return needs a rest-to-rest law; {return_law.name} does not end at rest with rise 1")
+        raise NoSolution(
+            f"the return needs a law from rest to rest; {return_law.name} does not end at rest with rise 1"
+        )
 
 
 class PressCams(DiscCams):
@@ -842,7 +844,7 @@ class PressCams(DiscCams):
                     f"base radius of the cams for a roller of {roller:g} mm: above {short(low)} mm, none found "
                     "(undercut)",
                     key="cam.roller_radius",
-                    fix="raise cam.return_angle, or take a smaller roller",
+                    fix="raise cam.return_angle, or use a smaller roller",
                 )
         return high if high == low else bracketed_root(room, low, high)
 
@@ -1511,7 +1513,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             gap = apart - reach - least
             yield SHAFT_CLEARANCE.check(
                 "pass" if gap >= 0.0 else "warn",
-                f"crank {name} to the minimum shaft at {other}",
+                f"distance of the crank {name} from the minimum shaft at {other}",
                 gap,
                 0.0,
                 "mm",

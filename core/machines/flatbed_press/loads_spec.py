@@ -35,8 +35,10 @@ class PressLoads(CommonLoads):
     )
     bed_side: Literal[1, -1] = Field(
         1,
-        description="side of F on which the bed lies, along x: 1, and N lies from G along +x; -1, the machine as it is "
-        "drawn, bed and N towards -x, which is up: gravity [9.81, 0]",
+        description=(
+            "side of F on which the bed lies, along x: 1, and N lies from G along +x; -1, the machine as drawn, bed "
+            "and N towards -x, which is upwards: gravity [9.81, 0]"
+        ),
     )
     gear_1_direction: Direction | None = Field(
         None, description="direction from A to G; default: no bearing forces of gears 1 and 2"

@@ -163,8 +163,8 @@ class PressRegister(RegisterDesign):
         if not self._lift.known(angles).all():
             start, end = (math.degrees(angle) for angle in self.stretch("zone"))
             raise MissingSection(
-                f"{self._where} nothing says where the lower rack stands: outside the synchronous "
-                f"zone, {short(start)} to {short(end)} deg, a register needs the section cam",
+                f"{self._where} the position of the lower rack is not known: outside the synchronous zone, "
+                f"{short(start)} to {short(end)} deg, a register needs the section cam",
                 key="cam",
             )
         return angles

@@ -79,7 +79,7 @@ class Cylinder(Spec):
     def _same_ratio(self) -> Self:
         if self.gears is not None and "gear_ratio" in self.model_fields_set and self.gear_ratio != self.ratio:
             message = (
-                f"the teeth of gears 3 and 4 make a ratio of {self.ratio:.9g}\nomit gear_ratio, or change the teeth"
+                f"the teeth of gears 3 and 4 give a ratio of {self.ratio:.9g}\nomit gear_ratio, or change the teeth"
             )
             raise refused(message, "gear_ratio")
         return self
@@ -114,7 +114,7 @@ class Bed(Spec):
     def _reachable(self) -> Self:
         require_offset_below_rod(self.rod, self.offset, "offset")
         if self.rack_teeth is not None and self.pinion is None:
-            message = "rack_teeth goes with pinion: {module, teeth}"
+            message = "rack_teeth needs pinion: {module, teeth}"
             raise refused(message, "pinion", "GL106")
         return self
 
@@ -148,7 +148,7 @@ class PressCam(Spec):
         None, description="cam angle from the end of the zone to the maximum lift, instead of `transition_end`"
     )
     return_angle: PartOfTurn = Field(description="cam angle of the return")
-    return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
+    return_law: MotionLaw = Field("cycloidal", description="motion law of the return, from rest to rest")
     shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
 
     @model_validator(mode="after")
@@ -208,7 +208,7 @@ class FlatbedPressSpec(TolerancedSpec):
             keys, z = teeth
             found = 0.5 * keys.module * z / cos(radians(keys.helix_angle))
             if keys.profile_shift is None and abs(given - found) > 1e-9 * found:
-                message = f"the teeth make a radius of {found:.9g} mm\nomit {key}, or give the same"
+                message = f"the teeth give a radius of {found:.9g} mm\nomit {key}, or give the same"
                 raise refused(message, f"loads.{key}")
         return self
 

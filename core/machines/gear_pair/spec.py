@@ -56,12 +56,12 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         None, description="teeth of the rack in figures and exports; default: as many as gear 1 has"
     )
     cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(
-        None, description="pinion cutter of a ring: only then its fillets are known"
+        None, description="pinion cutter of a ring: needed to compute its fillets"
     )
     span_teeth: Annotated[Any, Deferred("parts.gears.keys.types:TwoSpans")] | None = Field(
-        None, description="teeth that the span measurement of each gear goes over; default: chosen"
+        None, description="number of teeth of the span measurement of each gear; default: chosen"
     )
-    assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
+    assembly: Literal["axial", "radial"] = Field("axial", description="assembly of pinion and ring: radial or axial")
     shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
         "equal", description="how the shift sum is shared when center_distance alone is given: by a criterion, or x1"
     )
@@ -91,9 +91,9 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         internal = isinstance(second, int) and second < 0
         self._fits_a_rack()
         if self.cutter is not None and not internal:
-            raise refused("a pinion cutter goes with a ring (negative teeth)\nomit it, or give tool", "cutter")
+            raise refused("a pinion cutter applies only to a ring (negative teeth)\nomit it, or give tool", "cutter")
         if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
-            message = f"a cutter of {self.cutter.teeth} teeth does not go into a ring of {-second}"
+            message = f"a cutter of {self.cutter.teeth} teeth does not fit into a ring of {-second}"
             raise refused(f"{message}\nset cutter.teeth below {-second}", "cutter.teeth")
         self._fits_its_system(internal)
         if self.helix_hand is None:
@@ -110,9 +110,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         system = None if self.rating is None else self.rating.system
         if system in (None, "pair") or (system == "planet-ring") == internal:
             return
-        message = (
-            "system: planet-ring is that of a gear and its ring (negative teeth), sun-planet of two external gears"
-        )
+        message = "system: planet-ring needs a gear and its ring (negative teeth), sun-planet two external gears"
         raise refused(message, "rating.system")
 
     @property
@@ -124,18 +122,18 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         """Refuse what a rack cannot have."""
         if not self.rack:
             if self.rack_teeth is not None:
-                raise refused("rack_teeth goes with teeth: [z, rack]\nomit it", "rack_teeth")
+                raise refused("rack_teeth applies only with teeth: [z, rack]\nomit it", "rack_teeth")
             return
         if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
             message = "a rack has no shift\ngive profile_shift: [x1, 0], or center_distance to its datum line"
             key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
             raise refused(message, key)
         if self.shift_split != "equal":
-            message = "a rack takes no share of the shift\nomit shift_split; center_distance alone gives x1"
+            message = "shift_split does not apply to a rack\nomit it; center_distance alone gives x1"
             raise refused(message, "shift_split")
         for key in ("loads", "tip_diameter", "rating"):
             if getattr(self, key) is not None:
-                raise refused(f"{key} is not known of a gear on a rack\nomit it", key)
+                raise refused(f"{key} is not supported for a gear on a rack\nomit it", key)
 
 
 def exclude_each_other(spec: Any, first: str, second: str) -> None:
@@ -155,11 +153,11 @@ def require_teeth(teeth: list[Any]) -> None:
             key = f"teeth[{place}]"
             message, help_ = f"{key} must be at least 1, not {z}", "allowed: from 1 to 10000"
             if z < 0:
-                help_ = "a ring is gear 2: teeth: [21, -67]"
+                help_ = "a ring must be gear 2: teeth: [21, -67]"
             if place == 1:
                 message = f"{key} must be 1 or more, -1 or less for a ring, or rack, not {z}"
                 help_ = "allowed: from 1 to 10000, from -10000 to -1, rack"
             raise refused(f"{message}\n{help_}", key, "GL108")
     if second != "rack" and second < 0 and -second <= first:
-        message = f"a ring of {-second} teeth does not take a gear of {first}\nset teeth[1] below -{first}"
+        message = f"a gear of {first} teeth does not fit into a ring of {-second}\nset teeth[1] below -{first}"
         raise refused(message, "teeth[1]")

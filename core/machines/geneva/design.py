@@ -690,7 +690,7 @@ class GenevaDrive(RealSpeed, Design):
         if lip is not None:
             status: Status = "fail" if lip <= 0.0 else "pass"
             what, overlap = "thickness of the lip between locking arc and slot", "overlap of locking arc and slot"
-            fix = "take a smaller locking_radius or pin_radius"
+            fix = "use a smaller locking_radius or pin_radius"
             if lip:
                 yield LOCKING.check(status, what, lip, 0.0, "mm", overlap=overlap, fix=fix)
             else:
@@ -701,7 +701,7 @@ class GenevaDrive(RealSpeed, Design):
             web = 2.0 * (bottom * self.drive.ratio - self._half_slot)
             status = "fail" if web <= 0.0 else "pass"
             what, overlap = "web between the bottoms of two slots", "overlap of the bottoms of two slots"
-            fix = "take a smaller pin_radius, or a larger center_distance"
+            fix = "use a smaller pin_radius, or a larger center_distance"
             yield LOCKING.check(status, what, web, 0.0, "mm", overlap=overlap, fix=fix)
 
     @staticmethod
@@ -739,7 +739,7 @@ class GenevaDrive(RealSpeed, Design):
             if radius is None:
                 continue
             fails = place <= radius
-            subject, aside = f"space left by the {what}", f"radius of the {body}"
+            subject, aside = f"free radius inside the {what}", f"radius of the {body}"
             fix = f"lower {key}, or enlarge center_distance"
             yield SHAFT_CLEARANCE.check("fail" if fails else "pass", subject, place, radius, "mm", aside=aside, fix=fix)
 

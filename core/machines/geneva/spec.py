@@ -39,7 +39,7 @@ class Wheel(Spec):
 class GenevaLimits(LoadLimits):
     """Limits of the checks."""
 
-    steps_per_minute: Ratio = Field(200.0, description="steps in a minute that such a drive makes at most")
+    steps_per_minute: Ratio = Field(200.0, description="maximum number of steps per minute")
 
 
 class GenevaDriveSpec(DrivenSpec):
@@ -61,12 +61,12 @@ class GenevaDriveSpec(DrivenSpec):
     locking_clearance: Clearance = Field(0.0, description="radius of the wheel's locking arcs less that of the disc")
     hub_radius: Length | None = Field(None, description="radius of the wheel's hub or shaft")
     shaft_radius: Length | None = Field(None, description="radius of the crank's shaft")
-    wheel: Wheel | None = Field(None, description="what the wheel drives: with it contact force and torque are given")
+    wheel: Wheel | None = Field(None, description="load of the wheel: with it contact force and torque are computed")
     compare: Annotated[Any, _WithoutKind("machines.three_gear.spec:ThreeGearSpec", "three-gear-four-bar")] | None = (
         Field(None, description="a three-gear-four-bar, without its key kind, of the same step: table comparison")
     )
     compare_tolerance: DwellTolerance = Field(
-        0.25, description="half of what the output may cover in a dwell of the comparison"
+        0.25, description="permitted deviation +- of the output in a dwell of the comparison"
     )
     limits: GenevaLimits = GenevaLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.geneva.loads:GenevaSection")] | None = Field(
@@ -83,7 +83,7 @@ class GenevaDriveSpec(DrivenSpec):
             raise refused(f"{message}\nset pins to at most {pins}", "pins")
         if self.pin_radius >= (crank := self._crank(sign)):
             limit = safely_below(crank)
-            message = f"the pin reaches over the axis of the crank: {self.pin_radius:g} mm (limit < {limit} mm)"
+            message = f"the pin covers the axis of the crank: {self.pin_radius:g} mm (limit < {limit} mm)"
             raise refused(f"{message}\nset pin_radius below {limit} mm", "pin_radius")
         if self.slot_clearance >= (most := 2.0 * self._nearest(sign)):
             message = (
@@ -92,7 +92,7 @@ class GenevaDriveSpec(DrivenSpec):
             )
             raise refused(message, "slot_clearance")
         if self.locking_clearance and self.locking_radius is None:
-            raise refused("locking_clearance is that of the locking disc\ngive locking_radius", "locking_clearance")
+            raise refused("locking_clearance needs the locking disc\ngive locking_radius", "locking_clearance")
         return self
 
     def _crank(self, _sign: float) -> float:

@@ -417,7 +417,9 @@ class Machine(OfMembers):
         from gearlink.core.machines.machine.shaft import Chain
 
         if self.spec.shaft is None:
-            message = "this needs the main shaft: shaft: {inertias: [0.8, 0.3], stiffnesses: [9000]} (kg m^2, N m/rad)"
+            message = (
+                "the command needs the main shaft: shaft: {inertias: [0.8, 0.3], stiffnesses: [9000]} (kg m^2, N m/rad)"
+            )
             raise MissingSection(message, key="shaft")
         return Chain.of(self.spec.shaft)
 
@@ -513,14 +515,19 @@ class Machine(OfMembers):
             if limiting == (relation.text,):
                 within = isinstance(relation, Within)
                 note = (
-                    "no phases do better: the durations of both runs decide" if within else "no free phase changes it"
+                    "no phases give a larger margin: the durations of both motions determine it"
+                    if within
+                    else "no free phase changes it"
                 )
-                fix = "change the duration of one of both runs" if within else fix
+                fix = "change the duration of one of the two motions" if within else fix
             elif limiting:
-                note = f"no phases do better: these limit each other: {', '.join(limiting)}"
-                fix = "relax one of the requirements that limit each other"
+                note = f"no phases give a larger margin: these relations conflict: {', '.join(limiting)}"
+                fix = "relax one of the conflicting relations"
             if own := common_member(relation):
-                fix, note = f"change the motion of {own}", "both events are of one member: no phase changes the margin"
+                fix, note = (
+                    f"change the motion of {own}",
+                    "both events belong to one member: no phase changes the margin",
+                )
             yield codes.TIMING.check(status, what, margin, limit, unit, fix=fix, note=note)
 
     def _unit_of_value(self, relation: Any) -> str:
@@ -549,7 +556,7 @@ class Machine(OfMembers):
                 status: Status = "fail" if off > _SAME_SPEED else "pass"
                 unit = "1/min" if each.per == 1.0 else "sheets/h"
                 what, shown = f"{name}: {each.key}", Shown(each.value, speed, unit, "")
-                aside, fix = "by the speed of the machine", f"remove {each.key} of member {name}"
+                aside, fix = "at the speed of the machine", f"remove {each.key} of member {name}"
                 aside = aside if status == "fail" else ""
                 yield codes.MEMBER_SPEED.check(status, what, off, _SAME_SPEED, shown=shown, fix=fix, aside=aside)
 
@@ -561,7 +568,7 @@ class Machine(OfMembers):
             off = abs(self.spec.speed / f - 1.0)
             status: Status = "warn" if off < NEAR else "pass"
             what, shown = "distance of the speed from a critical speed", Shown(100.0 * off, 100.0 * NEAR, "%", ">=")
-            aside, fix = f"critical speed {short(f)} 1/min", "run at another speed, or stiffen the main shaft"
+            aside, fix = f"critical speed {short(f)} 1/min", "change the speed, or stiffen the main shaft"
             yield codes.CRITICAL_SPEED.check(status, what, off, NEAR, shown=shown, aside=aside, fix=fix)
 
     def require_named(self) -> None:

@@ -76,9 +76,9 @@ class Felt:
         with in_section(f"members.{self.place.name}.design"):
             found = self.loads.machine
             if found.stroke:
-                raise NoSolution("these loads are those of a stroke", key="loads", fix="give the whole cycle")
+                raise NoSolution("these loads cover only a stroke", key="loads", fix="give the whole cycle")
             if found.friction is not None and self.place.driver is not None:
-                message = "friction of a member behind another depends on how its driver runs"
+                message = "friction of a member that another member drives depends on its driver"
                 raise NoSolution(message, key="loads.friction", fix="omit it")
             return found
 
@@ -164,7 +164,7 @@ class Felt:
 
 
 def _no_links(_q: Reals, _order: int, _side: int) -> Any:
-    raise AssertionError("a machine of members has no links of its own")
+    raise AssertionError("a machine has only the links of its members")
 
 
 @dataclass(frozen=True)
@@ -330,7 +330,7 @@ class MachineLoads(OfMembers, LoadsDesign):
         found = math.lcm(self.members.turns, *(each.turns for each in self.felt.values()))
         if found > MOST_TURNS:
             message = f"the loads repeat only after {found} turns, more than {MOST_TURNS}"
-            raise NoSolution(message, key="members", fix="take simpler ratios")
+            raise NoSolution(message, key="members", fix="use simpler ratios")
         return found
 
     @cached_property
@@ -547,7 +547,7 @@ class MachineLoads(OfMembers, LoadsDesign):
             shown, value = Shown(100.0 * float(off[k]), 100.0 * NEAR, "%"), float(off[k])
             aside = f"harmonic {orders[k]:g}, {short(float(whole[k]))} N m"
             at = f"{short(float(_SHEETS * frequency / orders[k]))} 1/min"
-            fix = "run at another speed, or stiffen the shaft"
+            fix = "change the speed, or stiffen the shaft"
             yield codes.CRITICAL_SPEED.check(
                 "warn", what, value, NEAR, side=">=", shown=shown, aside=aside, at=at, fix=fix
             )
@@ -567,7 +567,7 @@ class MachineLoads(OfMembers, LoadsDesign):
         speed, most = self.given_speed, _NEAR_LIMIT * first.speed
         status: Status = "fail" if speed > first.speed else "warn" if speed > most else "pass"
         what, aside = "speed of the main shaft", f"{first.member}, {first.check}"
-        fix = f"run at {safely_below(most)} 1/min or less"
+        fix = f"set speed to at most {safely_below(most)} 1/min"
         yield codes.MACHINE_SPEED.check(
             status, what, speed, first.speed, "1/min", side="<=", recommended=most, aside=aside, fix=fix
         )

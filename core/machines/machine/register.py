@@ -93,7 +93,7 @@ class RegisterOfMachine(Design):
         with in_section(f"members.{name}.design"):
             member = self.spec.members[name]
             if "register" not in member.kind.commands or not getattr(member.spec, "tolerance", None):
-                message = f"{name} stands in register.chain"
+                message = f"{name} is listed in register.chain"
                 raise MissingSection(message, key="tolerance.sources", fix="give it tolerance: {sources: {...}}")
             register: RegisterDesign = member.kind.design("register", self._spec_of(name, float(own[0]) / place.scale))  # type: ignore[assignment]
             sign = max(SIGNS, key=lambda each: float(register.budgets[SIGNS.index(each)].band.max()))

@@ -148,9 +148,11 @@ def parse(text: str) -> Relation:
     if found := _VALUE.fullmatch(line):
         of, _, quantity = found["of"].rpartition(".")
         if quantity not in VALUES or not of:
-            raise NotARelation(f"{named(found['of'])} is no value\nwrite MEMBER.position, .velocity or .acceleration")
+            raise NotARelation(
+                f"{named(found['of'])} is not a value of a member\nwrite MEMBER.position, .velocity or .acceleration"
+            )
         return Value(line, of, quantity, _moment(found["at"]), found["side"], float(found["limit"]))  # type: ignore[arg-type]
-    raise NotARelation(f"{named(text)} is no relation: {_FORMS}")
+    raise NotARelation(f"{named(text)} is not a relation: {_FORMS}")
 
 
 def _moment(text: str) -> Moment:
@@ -184,7 +186,7 @@ def _require(moment: Moment, members: Sequence[str], events: Sequence[str], *, r
     if not moment.of:
         if moment.what not in events or runs:
             own = ", ".join(events) or "none"
-            message = f"no event {named(moment.what)}: those of `events` are {own}; of a member write MEMBER.rise_end"
+            message = f"no event {named(moment.what)}: those of `events` are {own}; for a member write MEMBER.rise_end"
             raise NotARelation(message, "GL109")
         return
     _require_member(moment.of, members)

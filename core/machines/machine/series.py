@@ -134,8 +134,8 @@ class OnShaft:
                 self._require_range()
                 return self.driver.turns
             if self.period is None:
-                message = "its driver turns on and on, its own input has a range"
-                raise NoSolution(message, key="input", fix="take a driver that swings")
+                message = "its driver turns continuously, but its input has a range"
+                raise NoSolution(message, key="input", fix="use a driver that oscillates")
             return self.driver.turns * self._whole(abs(self._step * gained) / self.period)
 
     def _require_range(self) -> None:
@@ -269,7 +269,7 @@ class OnShaft:
         if low < given.start - _AT_JOINT or high > given.end + _AT_JOINT:
             unit = "mm" if given.unit == "mm" else "deg"
             ends = [each / self.scale for each in (low, high, given.start, given.end)]
-            message = "its input goes from {} to {} {unit}, outside of its range from {} to {} {unit}"
+            message = "its input goes from {} to {} {unit}, outside its range from {} to {} {unit}"
             words = message.format(*map(short, ends), unit=unit)
             raise NoSolution(words, key="range", fix="change its phase or ratio, or widen range")
         return np.asarray(np.minimum(np.maximum(u, given.start), given.end))
@@ -404,7 +404,7 @@ class Members:
         with in_section(f"members.{name}.design"):
             design = self.own(name).design
             if not design.moving.outputs:
-                raise NoSolution("this design moves nothing", key="kind")
+                raise NoSolution("this design has no motion", key="kind")
         if member.input is None:
             return OnShaft(name, design, member.ratio)
         of, _, output = member.input.partition(".")
@@ -439,7 +439,7 @@ class Members:
             found = math.lcm(found, self[name].turns)
             if found > MOST_TURNS:
                 message = f"the machine repeats only after {found} turns, more than {MOST_TURNS}"
-                raise NoSolution(message, key=f"members.{name}.ratio", fix="take simpler ratios")
+                raise NoSolution(message, key=f"members.{name}.ratio", fix="use simpler ratios")
         return found
 
 

@@ -41,7 +41,9 @@ MachineAngle = Annotated[float, unit("deg", ge=-36_000, le=36_000)]
 
 def _require_name(name: str, key: str) -> None:
     if not _NAME.fullmatch(name):
-        raise refused(f"{named(name)} is no name: letters, digits and _, a letter first", key, "GL108")
+        raise refused(
+            f"{named(name)} is not a valid name: letters, digits and _, beginning with a letter", key, "GL108"
+        )
 
 
 def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
@@ -115,7 +117,7 @@ class Member(Spec):
         if self.of is None and self.design is None:
             raise refused("give `of` or `design`, exactly one", "of", "GL106")
         if self.ratio == 0.0:
-            raise refused("with ratio 0 the member does not move\ngive another one", "ratio", "GL108")
+            raise refused("with ratio 0 the member does not move\nset another ratio", "ratio", "GL108")
         if self.phase == "free" and self.input is not None:
             raise refused("a member with input moves with its driver\ngive a number for its phase", "phase")
         return self
@@ -158,8 +160,8 @@ class Event(Spec):
     """A moment at which a member passes a value."""
 
     of: str = Field(description="a member, or one of its outputs as MEMBER.OUTPUT")
-    output: Annotated[float, unit("1")] = Field(description="the value that its output passes, mm or deg")
-    on: str | None = Field(None, description="the run in which it does: rise, return, rise[2]; default: the first")
+    output: Annotated[float, unit("1")] = Field(description="value that the output passes, mm or deg")
+    on: str | None = Field(None, description="motion in which it does so: rise, return, rise[2]; default: the first")
 
 
 class MainShaft(Spec):
@@ -171,16 +173,18 @@ class MainShaft(Spec):
     stiffnesses: Annotated[
         list[Stiffness | OfShaft], Field(min_length=1, max_length=199), Entries("between neighbours")
     ] = Field(
-        description="stiffness between neighbours, at the shaft of the first of both, or the sizes of that shaft; "
-        "through a mesh that of the teeth times the square of its base radius"
+        description=(
+            "torsional stiffness between neighbouring discs, related to the shaft of the first one, or the dimensions "
+            "of that shaft; through a mesh the tooth stiffness times the square of its base radius"
+        )
     )
     members: Annotated[list[str | list[str]], Field(max_length=200)] | None = Field(
         None, description="names of the discs, of a disc with several members a list; other members act on the first"
     )
     ratios: Annotated[list[Turns], Field(max_length=200)] | None = Field(
-        None, description="turns of each disc per revolution of the main shaft; default 1"
+        None, description="revolutions of each disc per revolution of the main shaft; default 1"
     )
-    fixed: bool = Field(False, description="the first disc does not swing")
+    fixed: bool = Field(False, description="the first disc is fixed")
     damping: Annotated[float, unit("1", ge=0, lt=1)] | None = Field(
         None, description="damping ratio of every mode; default: 0.03, assumed"
     )
@@ -194,7 +198,7 @@ class MainShaft(Spec):
         for name in ("members", "ratios"):
             given = getattr(self, name)
             if given is not None and len(given) != count:
-                free = "; a disc without a mechanism takes any name, such as motor" if name == "members" else ""
+                free = "; a disc without a mechanism may have any name, such as motor" if name == "members" else ""
                 message = f"{name}: {amount(len(given), 'entry', 'entries')} for {count} discs\ngive one for each{free}"
                 raise refused(message, name)
         if self.ratios is not None and 0.0 in self.ratios:
@@ -223,7 +227,7 @@ class MachineLimits(Spec):
     """Limits of the checks."""
 
     timing_margin: Share = Field(0.0, description="minimum margin of the relations, deg; below it a warning")
-    torque_margin: Ratio = Field(1.0, description="the motor's torque over the one needed, at least")
+    torque_margin: Ratio = Field(1.0, description="minimum ratio of the motor's torque to the required one")
 
 
 class MachineLoads(Spec):
@@ -261,7 +265,7 @@ class MachineRegister(Spec):
 
     at: MachineAngle = Field(0.0, description="machine angle of the print")
     chain: Annotated[dict[str, Annotated[float, unit("1")]], Field(min_length=1)] = Field(
-        description="what an error of each member costs at the print: its share, with its sign"
+        description="factor of each member's error in the register error at the print, with its sign"
     )
     tolerance: Length | None = Field(None, description="maximum error that is allowed, to either side")
 
@@ -278,7 +282,7 @@ class MachineSpec(TolerancedSpec):
         description="the mechanisms by name, each {of: FILE} or {design: {...}}"
     )
     events: Annotated[dict[str, Event], Field(max_length=2000)] = Field(
-        {}, description="moments by name at which a member passes a value"
+        {}, description="named events at which a member passes a value"
     )
     require: Annotated[list[str], Field(max_length=2000)] = Field(
         [], description="relations: EVENT before EVENT by DEG; RUN within RUN by DEG; MEMBER.velocity at EVENT <= VALUE"
@@ -306,7 +310,9 @@ class MachineSpec(TolerancedSpec):
                 raise refused(message, f"members.{name}.input", "GL109")
         for name in self.members:
             if loop := self._circle(name):
-                message = f"{' <- '.join(loop)} drive each other in a circle\nlet one of them be driven by the shaft"
+                message = (
+                    f"{' <- '.join(loop)} drive each other in a closed loop\nlet one of them be driven by the shaft"
+                )
                 raise refused(message, f"members.{name}.input")
         return self
 
@@ -323,7 +329,7 @@ class MachineSpec(TolerancedSpec):
         for name, event in self.events.items():
             _require_name(name, f"events.{name}")
             if name in self.members:
-                raise refused(f"{name} is a member: call the event otherwise", f"events.{name}")
+                raise refused(f"{name} is a member: give the event another name", f"events.{name}")
             if event.of.partition(".")[0] not in self.members:
                 message = f"no member {named(event.of)}: there are {', '.join(self.members)}"
                 raise refused(message, f"events.{name}.of", "GL109")

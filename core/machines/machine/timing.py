@@ -333,7 +333,7 @@ class Timing:
             ends = [(value, run.start + i * run.duration) for run in self.runs(moment.of)
                     for i, value in enumerate((run.of, run.to))]  # fmt: skip
             if len({run.name for run in self.runs(moment.of)}) == 1:
-                raise NoSolution(f"{moment.of} turns on and on: it has no {moment.what}")
+                raise NoSolution(f"{moment.of} turns continuously: it has no {moment.what}")
             best = max(value for value, _ in ends) if greatest else min(value for value, _ in ends)
             near = _NOTHING * max(abs(value) for value, _ in ends)
             return min(place % cycle for value, place in ends if abs(value - best) <= near) + turn

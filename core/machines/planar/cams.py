@@ -49,7 +49,7 @@ _SQUARE = 1e-9  # cosine of a right angle
 _OUTLINE, _BEYOND = 721, 0.1
 _FOOT_ROUNDS, _FOOT = 12, 1e-11  # rad, after which another step would be rounding
 _UPON = 2e-12  # rad, from a joint of a law: rounding
-_LARGER = "set the follower farther from the cam, or give its motion more cam angle"
+_LARGER = "move the follower farther from the cam, or give its motion more cam angle"
 _USUAL = {True: 30.0, False: 45.0}
 """Maximum pressure angle of a follower that slides, and of one that turns [deg]."""
 
@@ -81,7 +81,7 @@ class Lift(NamedTuple):
             AssertionError - for a higher order, which laws do not have
         """
         if k > 3:
-            raise AssertionError(f"a law of motion has no derivative of order {k}")
+            raise AssertionError(f"a motion law has no derivative of order {k}")
         a = [self.angle(jets, j) for j in range(1, k + 1)]
         phi, back = self.angle(jets, 0), a[0] < 0.0 if k > 1 else np.zeros(1, dtype=bool)
         s = _on_side(lambda side: self.motion.evaluate(phi, k, side=side), back, jets.side)
@@ -301,7 +301,7 @@ class CamJoint:
         fastest = float(np.abs(found.evaluate(phi, 1)[1]).max())
         place, jump = max(found.steps(1), key=lambda step: abs(step[1]))
         if abs(jump) > _STEP * fastest:
-            words = f"the velocity of the lift jumps at cam angle {place}, which no mechanism follows"
+            words = f"the velocity of the lift jumps at cam angle {place}, which no mechanism can follow"
             raise NoSolution(
                 words, key=f"{self.key}.motion", fix="use laws with the same velocity on both sides of the joint"
             )
@@ -454,7 +454,7 @@ class CamJoint:
         radius = self.given.roller_radius or 0.0
         if abs(self._start) <= radius:
             what = f"prime radius {short(abs(self._start))} mm is not above roller_radius {short(radius)} mm"
-            raise NoSolution(what, key=f"{self.key}.roller_radius", fix="take a smaller roller, or move the follower")
+            raise NoSolution(what, key=f"{self.key}.roller_radius", fix="use a smaller roller, or move the follower")
         return DiscCam(title, self._path, self.sense, radius, joints, self.key)
 
     def _path(self, phi: Reals, order: int) -> RollerPath:
@@ -472,7 +472,7 @@ class CamJoint:
             along = self.ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
             if abs((u.conjugate() * along).real) > _SQUARE:
                 what, square = (
-                    "a flat face stands square to the slide of its follower",
+                    "a flat face must be perpendicular to the slide of its follower",
                     cmath.phase(1j * u / self.ahead),
                 )
                 raise NoSolution(what, key=f"{self.key}.face", fix=f"set {self.key}.face to {math.degrees(square):.6g}")
@@ -484,7 +484,7 @@ class CamJoint:
         normal = -1j * side * along
         offset = (normal.conjugate() * (self._start - pivot)).real
         if offset + abs(pivot) * math.sin(abs(angle)) <= 0.0:
-            what = "the face leaves no base circle at lift 0, the axis of the cam lies beyond it"
+            what = "there is no base circle at lift 0: the axis of the cam lies beyond the face"
             raise NoSolution(what, key=self.key, fix=f"change start.{self._started}")
         return rocking_face(self.motion, abs(angle), abs(pivot), cmath.phase(pivot), offset, side, self.sense)
 

@@ -93,7 +93,7 @@ class _Refusals:
 
     def starts_dead(self) -> NoSolution:
         return NoSolution(
-            "the mechanism starts in a dead centre, where its motion is not certain",
+            "the mechanism starts in a dead centre, where its motion is not determined",
             key="start",
             fix=f"change {_starts(self.course.structure)}",
         )
@@ -106,7 +106,7 @@ class _Refusals:
         else:
             low, high = sorted((here, shown(self.course.dead_centre(back))))
             free = f"between {low:.6g} and {high:.6g} {unit}"
-        ways = "keep range: {start, end}" if ranged else "let the input swing"
+        ways = "keep range: {start, end}" if ranged else "let the input oscillate"
         return NoSolution(
             f"the mechanism jams in a dead centre at input {short(here)} {unit}",
             key="range",
@@ -118,12 +118,12 @@ class _Refusals:
         return NoSolution(
             f"the mechanism does not return to its start position within {MOST_TURNS} turns of the input",
             key=key,
-            fix="take ratios and teeth with common factors, or give range: {start, end}",
+            fix="use ratios and teeth with common factors, or give range: {start, end}",
         )
 
     def too_fast(self, q: float, steps: int) -> NoSolution:
         return NoSolution(
-            f"the motion is too fast to follow: {steps} steps lead to input {short(self.course.shown(q))} "
+            f"the motion changes too fast to be computed: {steps} steps lead to input {short(self.course.shown(q))} "
             f"{self.course.unit}",
             key="meshes" if self.course.structure.spec.meshes else "links",
             fix="check lengths, modules and teeth: some sizes are hundreds of times larger than others",
@@ -429,7 +429,7 @@ class Start:
                 raise NoSolution(
                     f"the gears of {name} and their carrier are driven or tied by meshes before",
                     key=f"meshes.{name}",
-                    fix="leave the mesh or a drive out",
+                    fix="omit the mesh or a drive",
                 )
             slide = structure.slides.get(own)
             body = mesh.line.other if isinstance(mesh, RackJoint) else mesh.first
@@ -441,7 +441,7 @@ class Start:
         for name, cam in structure.cams.items():
             if name not in structure.tied:
                 raise NoSolution(
-                    f"the follower of {name} is moved by a cam before", key=f"cams.{name}", fix="leave one of both out"
+                    f"the follower of {name} is moved by a cam before", key=f"cams.{name}", fix="omit one of the two"
                 )
             at = self._cam_start(name)
             if cam.slide is not None:
@@ -490,12 +490,11 @@ class Start:
         times = "once" if excess == 1 else f"{excess} times"
         return NoSolution(
             (
-                f"the joints {', '.join(joints)} hold the mechanism {times} more than it can take, "
-                f"{_count(freedoms, 'degree of freedom', 'degrees of freedom')} for "
-                f"{_count(drives, 'drive')}"
+                f"the joints {', '.join(joints)} constrain the mechanism {times} more than it can take, "
+                f"{_count(freedoms, 'degree of freedom', 'degrees of freedom')} for {_count(drives, 'drive')}"
             ),
             key="links",
-            fix="leave one link or one joint out",
+            fix="omit one link or one joint",
         )
 
     def _require_matching(self, system: System) -> None:
@@ -509,11 +508,11 @@ class Start:
         free = sorted(set((np.flatnonzero(np.abs(right[rank:]).max(axis=0) > _SHARE) // 3 + 1).tolist()))
         raise NoSolution(
             (
-                f"the joints {', '.join(self.joints_of(system, rows))} hold their links more than once, "
-                f"while {' and '.join(self.structure.names[body] for body in free)} can still move"
+                f"the joints {', '.join(self.joints_of(system, rows))} constrain their links more than once, while "
+                f"{' and '.join(self.structure.names[body] for body in free)} can still move"
             ),
             key="links",
-            fix="change how they are joined",
+            fix="change the joints between them",
         )
 
     def joints_of(self, system: System, rows: Iterable[int]) -> list[str]:
@@ -542,7 +541,7 @@ class Start:
             ready = [each for each in waiting if each.line.body in known]
             if not ready:
                 names = [structure.names[each.line.other] for each in waiting]
-                raise NoSolution(f"{' and '.join(names)} slide on each other in a circle", key="slides")
+                raise NoSolution(f"{' and '.join(names)} slide on each other in a closed chain", key="slides")
             for each in ready:
                 t[each.line.other] = wrapped(t[each.line.body] + each.line.direction + (each.lean or 0.0))
                 known.add(each.line.other)

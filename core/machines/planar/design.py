@@ -574,7 +574,7 @@ class PlanarMechanism(Design):
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303: the minimum of all dyads."""
         if self.min_transmission_angle is not None:
-            remedy = "bring the two links that close a dyad nearer to a right angle"
+            remedy = "bring the two links of the dyad nearer to a right angle"
             limit = self.spec.limits.transmission_angle
             yield transmission_check(self.min_transmission_angle, limit, remedy)
 
@@ -587,7 +587,7 @@ class PlanarMechanism(Design):
         """GL301: gears that do not mesh."""
         for pair in () if self.layout is None else self.layout.gear_pairs:
             why = f"centres {short(pair.distance)} mm apart"
-            remedy = "set the centres farther apart, or take fewer teeth"
+            remedy = "set the centres farther apart, or use fewer teeth"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

@@ -110,14 +110,14 @@ class PlanarLoads(LoadsDesign):
             least = self._contact(cam, greatest=False)
             status: Status = "fail" if least.value < 0.0 else "pass"
             what, at = f"minimum contact force of the cam {cam}", f"input angle {short(math.degrees(least.place))} deg"
-            fix = "press the follower on the cam by a force, or let the cam run slower"
+            fix = "press the follower on the cam by a force, or reduce the speed"
             yield LIFT_OFF.check(status, what, least.value, 0.0, "N", side=">=", at=at, fix=fix)
 
     @cached_property
     def section(self) -> Section:
         """The section `loads`, refused where it asks for what a pass over a range or a slide as drive has not."""
         if self.spec.drive.slide is not None:
-            words = "`loads` is of a link that the input turns"
+            words = "`loads` needs a link that the input turns"
             raise MissingSection(words, key="drive.slide", fix="drive a link instead of a slide")
         found: Section | None = self.spec.loads
         if found is None:
@@ -125,11 +125,11 @@ class PlanarLoads(LoadsDesign):
         if self.spec.range is not None:
             for key in ("flywheel", "motor", "vibration"):
                 if getattr(found, key) is not None:
-                    words = f"over a range nothing repeats, so there is no {key}"
+                    words = f"with range the motion does not repeat, so {key} cannot be computed"
                     raise MissingSection(words, key=f"loads.{key}", fix="omit it, or range")
             for name, bearing in found.bearings.items():
                 if bearing.life is not None:
-                    words = "over a range nothing repeats, so there is no life"
+                    words = "with range the motion does not repeat, so no life can be computed"
                     raise MissingSection(words, key=f"loads.bearings.{name}.life", fix="omit it, or range")
         return found
 

@@ -204,7 +204,7 @@ class PlanarSamples:
         """Whether sizes, plays and extremes alone are asked for, and each gap of gears and shafts is found."""
         for key in keys:
             if key.startswith("cams.") and not _OF_CAMS.fullmatch(key):
-                what = f"{key} is no size of a part: the profile is cut by the law of the file"
+                what = f"{key} is not a size of a part: the profile is cut by the law of the file"
                 raise NoSolution(what, key="tolerance.sources", fix="name cams.NAME.profile, roller_radius or phase")
         if not all(self._is_size(key) for key in keys) or not self._has_gaps(keys):
             return False

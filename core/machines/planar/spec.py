@@ -28,7 +28,7 @@ MOST_LINKS = 40
 def _is_name(name: str) -> str:
     if re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         return name
-    message = f"{name!r} is no name here: a name begins with a letter and holds letters, digits and _ alone"
+    message = f"{name!r} is not a valid name: a name begins with a letter and has only letters, digits and _"
     raise refused(message, code="GL108")
 
 
@@ -54,7 +54,7 @@ class Slide(Spec):
     through: Vector = Field(description="a point of the line, in coordinates of `on`")
     direction: Direction = Field(description="direction of the line in coordinates of `on`")
     point: Name | None = Field(None, description="point of the link that runs on the line; default: its first")
-    angle: Direction = Field(0.0, description="what the link's x axis leads the direction by")
+    angle: Direction = Field(0.0, description="angle from the direction to the link's x axis")
 
 
 class Slot(Spec):
@@ -73,7 +73,7 @@ class Teeth(Spec):
         None, description="the links of the two gears; frame for one that is fixed"
     )
     rack: Name | None = Field(None, description="the link of a rack, or frame; instead of gears")
-    pinion: Name | None = Field(None, description="the link of the pinion that meets the rack")
+    pinion: Name | None = Field(None, description="the link of the pinion that meshes with the rack")
     at: Annotated[list[Name], Field(min_length=2, max_length=2), Entries("[point, point]")] | Name = Field(
         description="the centres of the gears; the centre of the pinion"
     )
@@ -83,7 +83,7 @@ class Teeth(Spec):
     module: Length | None = Field(None, description="module; default: twice the centre distance over the teeth's sum")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
     carrier: Name | None = Field(
-        None, description="the body that holds both centres; default: the first that has both points"
+        None, description="the body that carries both centres; default: the first that has both points"
     )
     direction: Direction | None = Field(None, description="direction of the pitch line of the rack, in its coordinates")
     side: Literal[1, -1] | None = Field(None, description="1: the pinion is to the left of the direction; -1: right")
@@ -93,7 +93,7 @@ class Teeth(Spec):
         of_rack = {"rack": self.rack, "pinion": self.pinion, "direction": self.direction, "side": self.side}
         if self.gears is not None:
             if wrong := next((key for key, value in of_rack.items() if value is not None), ""):
-                raise refused(f"{wrong} goes with rack and pinion\nomit it or gears", wrong)
+                raise refused(f"{wrong} applies only to rack and pinion\nomit it or gears", wrong)
             if not isinstance(self.at, list) or not isinstance(self.teeth, list):
                 raise refused(
                     "two gears need a list of two, [.., ..]", "at" if not isinstance(self.at, list) else "teeth"
@@ -107,13 +107,13 @@ class Teeth(Spec):
             raise refused(f"{missing} is missing: {words}", "rack", "GL106")
         if isinstance(self.at, list) or isinstance(self.teeth, list):
             raise refused(
-                "a rack meets one pinion\ngive one value instead of a list",
+                "a rack meshes with one pinion\ngive one value instead of a list",
                 "at" if isinstance(self.at, list) else "teeth",
             )
         if isinstance(self.teeth, int) and self.teeth < 1:
             raise refused("a pinion has 1 tooth or more", "teeth")
         if self.carrier is not None:
-            raise refused("a rack needs no carrier: its slide holds it at its distance", "carrier")
+            raise refused("a rack needs no carrier: its slide keeps its distance from the pinion", "carrier")
         return self
 
 
@@ -221,14 +221,19 @@ class PlanarSpec(TolerancedSpec):
     drive: Drive
     start: Annotated[dict[Name, Place], Field(max_length=2 * MOST_LINKS)] = Field(
         {},
-        description="directions of the links [deg] and positions of slides [mm] at input 0: exact of what is driven or "
-        "tied by a mesh, of followers of cams at lift 0, rough of all others, where they choose the assembly",
+        description=(
+            "directions of the links [deg] and positions of slides [mm] at input 0: exact for driven links, links "
+            "tied by a mesh and followers of cams (at lift 0); approximate for all others, where they select the "
+            "assembly"
+        ),
     )
-    range: Range | None = Field(None, description="inputs, where the input swings; default: it turns")
+    range: Range | None = Field(None, description="range of the input if it oscillates; default: it turns")
     outputs: Annotated[list[Name], Field(min_length=1, max_length=100)] | None = Field(
         None,
-        description="links, slides, slots and points that are looked at; of a link that slides on the frame its slide; "
-        "default: all other links, then slides",
+        description=(
+            "links, slides, slots and points whose motion is given; of a link that slides on the frame its slide; "
+            "default: all links but the driven one, then slides"
+        ),
     )
     input_speed: Annotated[float, unit("1/min", ge=1e-6, le=1e6)] | None = Field(
         None, description="speed of the input, of a slide in mm/s: with it real speeds and times are given"

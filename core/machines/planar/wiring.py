@@ -37,7 +37,7 @@ def _sizes(spec: PlanarSpec) -> Iterator[Fault]:
     for key in () if spec.tolerance is None else spec.tolerance.sources:
         section = key.partition(".")[0]
         if section in ("start", "drive", "range", "limits", "input_speed"):
-            words = f"{section} is no size of a part\nname a number of frame, links, slides or slots, or pins.PIN"
+            words = f"{section} is not a size of a part\nname a number of frame, links, slides or slots, or pins.PIN"
             yield "GL170", f'tolerance.sources."{key}"', words
 
 
@@ -47,12 +47,12 @@ def _names(spec: PlanarSpec) -> Iterator[Fault]:
         for name in getattr(spec, section):
             key = f"{section}.{name}"
             if name in RESERVED:
-                yield "GL111", key, f"{name} has a meaning of its own: call it otherwise"
+                yield "GL111", key, f"{name} is reserved: use another name"
             if name in seen:
                 yield (
                     "GL111",
                     key,
-                    f"{seen[name]} has this name already: links, slides, slots, meshes and cams need their own",
+                    f"{seen[name]} already has this name: links, slides, slots, meshes and cams need different names",
                 )
             seen[name] = key
 
@@ -68,7 +68,7 @@ def _bars(spec: PlanarSpec) -> Iterator[Fault]:
         if isinstance(length, str):
             yield "GL111", f"links.{name}[2]", "a bar is [first point, second point, length]\ngive its length in mm"
         if first == second:
-            yield "GL111", f"links.{name}[1]", "a bar leads from one point to another\nname two"
+            yield "GL111", f"links.{name}[1]", "a bar connects two different points\nname two"
 
 
 def _near(wrong: str, known: Iterable[str]) -> str:
@@ -106,7 +106,8 @@ def _slides(spec: PlanarSpec) -> Iterator[Fault]:
             yield from _point(spec, slide.point, slide.link, f"{key}.point")
         if slide.link in taken:
             words = (
-                f"{slide.link} runs on slide {taken[slide.link]} already: a second line is a slot for one of its points"
+                f"{slide.link} already runs on slide {taken[slide.link]}: for a second line use a slot for one of its "
+                "points"
             )
             yield "GL111", f"{key}.link", words
         taken[slide.link] = name
@@ -117,7 +118,7 @@ def _slides(spec: PlanarSpec) -> Iterator[Fault]:
         if slot.point not in points:
             yield "GL111", f"{key}.point", f"no body has a point {named(slot.point)}: {_near(slot.point, points)}"
         if not any(slot.point in body for other, body in spec.bodies.items() if other != slot.on):
-            words = f"{slot.point} stands on {slot.on} itself, which has the slot\nname a point of another body"
+            words = f"{slot.point} is a point of {slot.on}, which has the slot\nname a point of another body"
             yield "GL111", f"{key}.point", words
 
 
@@ -142,7 +143,7 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
             yield from _point(spec, point, mesh.carrier, f"{key}.carrier")
     holder = carrier_of(spec, mesh)
     if holder is None:
-        words = f"no body has both points {' and '.join(mesh.at)}, so nothing holds the gears at their distance"
+        words = f"no body has both points {' and '.join(mesh.at)}, so nothing keeps the centre distance of the gears"
         yield "GL111", f"{key}.at", f"{words}\nadd a link between them"
     elif spec.bodies[holder][mesh.at[0]] == spec.bodies[holder][mesh.at[1]]:
         yield "GL111", f"{key}.at", "the centres of the gears coincide\nmove one of them"
@@ -190,7 +191,7 @@ def _drives(spec: PlanarSpec) -> Iterator[Fault]:
         if name in spec.slid:
             yield "GL111", key, f"{name} slides\nname its slide {spec.slid[name]} instead of the link"
         if name == drive.main:
-            yield "GL111", key, f"{name} is the drive itself, which the input moves 1 to 1\nomit it"
+            yield "GL111", key, f"{name} is the drive itself, which the input moves with ratio 1\nomit it"
     if drive.slide is not None and spec.range is None:
         words = "a slide as drive needs a range: {start, end} (mm), since nothing repeats"
         yield "GL106", "range", words
@@ -273,5 +274,5 @@ def _hanging(spec: PlanarSpec) -> Iterator[Fault]:
         edge = [name for each in edge for name in near[each] if name not in reached and not reached.add(name)]  # type: ignore[func-returns-value]
     for name in spec.links:
         if name not in reached:
-            words = f"{name} hangs on nothing: no pin, slide or slot leads from the frame to it\ngive it a common point"
+            words = f"{name} is not connected: no pin, slide or slot leads from the frame to it\ngive it a common point"
             yield "GL111", f"links.{name}", words

@@ -139,7 +139,7 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
             f"swing: {unlike(math.degrees(swing), reach)} deg (limit <= {math.floor(reach * 10.0) / 10.0:g} deg "
             "with these links and gears)"
         ),
-        fix=f"reduce swing, or take more teeth on the coupler gear (now z2/z5 = {short(abs(ratio))})",
+        fix=f"reduce swing, or use more teeth on the coupler gear (now z2/z5 = {short(abs(ratio))})",
     )
 
 
@@ -392,5 +392,5 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
-        remedy = "shorten the crank, and gain the swing by more teeth on the coupler gear"
+        remedy = "shorten the crank, and keep the swing by more teeth on the coupler gear"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

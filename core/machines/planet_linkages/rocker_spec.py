@@ -55,9 +55,9 @@ class GearedRockerSpec(DrivenSpec):
     @model_validator(mode="after")
     def _crank_or_swing(self) -> Self:
         if self.links.crank is None and self.target is None:
-            raise refused("give links.crank, or target.swing from which it is found", "links.crank", "GL106")
+            raise refused("give links.crank, or target.swing to have it found", "links.crank", "GL106")
         if self.links.crank is not None and self.target is not None:
             raise refused(
-                "links.crank and target.swing exclude each other\nleave the crank out to have it found", "links.crank"
+                "links.crank and target.swing exclude each other\nomit links.crank to have it found", "links.crank"
             )
         return self

@@ -183,12 +183,12 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
         """The four-bar, with the frame that meets the task of a synthesis."""
         frame = self.spec.links.frame
         if self.seeks and frame is not None:
-            raise NoSolution("links.frame is what this command seeks", key="links.frame", fix="omit it")
+            raise NoSolution("this command determines links.frame", key="links.frame", fix="omit it")
         return self.linkage_of(self.sought_frame() if frame is None else frame)
 
     def sought_frame(self) -> float:
         """The frame [mm] that meets the task of a synthesis."""
-        raise MissingSection("this command needs links.frame; a synth command seeks it", key="links.frame")
+        raise MissingSection("this command needs links.frame; a synth command finds it", key="links.frame")
 
     @cached_property
     def family(self) -> Family:
@@ -379,14 +379,14 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
         """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""
         needed = self.standstill_coupler_ratio
         reached = self.coupler_ratio_min if self.internal else self.coupler_ratio_max
-        aside = f"{self.motion}, the output stops at {short(needed)}"
+        aside = f"{self.motion}; the output stops at {short(needed)}"
         what = f"{'minimum' if self.internal else 'maximum'} coupler ratio w2/w1"
         shown = Shown(reached)
         asked = None if self.spec.target is None else self.spec.target.motion
         if asked is None or asked == self.motion:
             return DWELL_CONDITION.check("pass", what, reached, needed, shown=shown, aside=aside)
         if self._never_stands() and asked != UNIDIRECTIONAL:
-            fix = "take a ring gear, or a drag link (frame the shortest)"
+            fix = "use a ring gear, or a drag link (frame the shortest)"
             raise NoSolution(f"{asked} is impossible: {self._never_stands()}", key="target.motion", fix=fix)
         fix = self._motion_remedy(asked)
         return DWELL_CONDITION.check("fail", f"no {asked}, {what}", reached, needed, shown=shown, aside=aside, fix=fix)
@@ -404,7 +404,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
         """What would bring the motion that is asked for."""
         limit, have = self.dwell_teeth_ratio, self.output_teeth / self.planet_teeth
         if limit is None:
-            return "change the links: these stop the output with no number of teeth"
+            return "change the links: no numbers of teeth stop the output with these"
         if asked == MOMENTARY_DWELL:
             return f"set z5/z2 to {short(limit)} (now {short(have)})"
         side, bound = ("above", safely_above(limit)) if asked == UNIDIRECTIONAL else ("below", safely_below(limit))

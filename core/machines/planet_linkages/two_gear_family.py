@@ -174,7 +174,7 @@ def never(family: Family) -> str:
         reach = max(t.value for t in family.drive(high - margin).coupler_turnings()) - 1.0
         return (
             f"the output never stops: z5/z2 {unlike(teeth, reach)} (limit < {safely_below(reach)} for {limits})\n"
-            "take fewer teeth on the sun or more on the planet"
+            "use fewer teeth on the sun or more on the planet"
         )
     reach, least = (
         1.0 - min(t.value for t in family.drive(d).coupler_turnings()) for d in (low + margin, high - margin)
@@ -186,7 +186,7 @@ def never(family: Family) -> str:
         )
     return (
         f"the output never stops: z5/z2 {unlike(teeth, reach)} (limit < {safely_below(reach)} for {limits})\n"
-        "take fewer teeth on the ring gear or more on the planet"
+        "use fewer teeth on the ring gear or more on the planet"
     )
 
 

@@ -37,7 +37,7 @@ class PlanetGears(TrainKeys):
         if self.sun is not None and self.ring is not None:
             raise refused("sun and ring exclude each other\nomit sun or ring", "ring")
         if self.ring is not None and self.ring <= self.planet:
-            message = f"a ring gear of {self.ring} teeth does not take a planet of {self.planet}"
+            message = f"a planet of {self.planet} teeth does not fit into a ring gear of {self.ring}"
             raise refused(f"{message}\nset gears.ring above {self.planet}", "ring")
         require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)
         return self
@@ -60,7 +60,7 @@ class StandingDwell(DwellBand):
         if self.window is None and self.tolerance is None:
             raise refused("give window, tolerance or both", "tolerance", "GL106")
         if self.margin is not None and self.window is not None:
-            raise refused("margin goes with tolerance alone\nomit it", "margin")
+            raise refused("margin applies only with tolerance alone\nomit it", "margin")
         return self
 
 
@@ -93,7 +93,7 @@ class TwoGearFourBarSpec(DrivenSpec):
         None, description="crank angle over which the output must stay within that tolerance"
     )
     feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(
-        None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
+        None, description="what the output feeds: a roller or belt by its radius, or a chain by pitch and teeth"
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: Annotated[Any, Deferred("parts.linkages.spec_sections:PivotShafts")] | None = Field(
@@ -108,27 +108,30 @@ class TwoGearFourBarSpec(DrivenSpec):
     def _frame_given_or_sought(self) -> Self:
         syntheses = self._syntheses()
         if self.links.frame is None and not syntheses:
-            message = "give frame, or have it sought\ngive dwell, back_step, or target with motion: momentary-dwell"
+            message = (
+                "frame is missing, and nothing determines it\ngive frame, or dwell, back_step, or target with motion: "
+                "momentary-dwell"
+            )
             raise refused(message, "links.frame", "GL106")
         sections = [name for name in ("dwell", "back_step") if getattr(self, name) is not None]
         if self.links.frame is not None and sections:
-            message = f"links.frame is what {sections[0]} has sought\nomit one of them"
+            message = f"{sections[0]} determines links.frame\nomit one of them"
             raise refused(message, "links.frame")
         return self
 
     @model_validator(mode="after")
     def _one_tolerance(self) -> Self:
         if self.dwell_tolerance is not None and self.dwell is not None:
-            message = "dwell_tolerance measures links that are given, dwell has the frame sought\nomit one of them"
+            message = "dwell_tolerance evaluates a given frame, but dwell determines the frame\nomit one of them"
             raise refused(message, "dwell_tolerance")
         if self.dwell_window is not None and self.dwell_tolerance is None:
-            raise refused("dwell_window goes with dwell_tolerance\ngive that too", "dwell_window")
+            raise refused("dwell_window needs dwell_tolerance\ngive it too", "dwell_window")
         return self
 
     @model_validator(mode="after")
     def _lay_has_a_speed(self) -> Self:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None:
-            message = "the speed at the lay needs the speed of the input\ngive input_speed"
+            message = "the speed at the lay needs the input speed\ngive input_speed"
             raise refused(message, "input_speed", "GL106")
         return self
 

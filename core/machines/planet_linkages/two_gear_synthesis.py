@@ -132,7 +132,7 @@ class BackStepSynthesis(TwoGearFourBar):
                     f"{words} is out of reach: at least {limit} deg as a crank-rocker with these gears and links, "
                     "whose output steps back with every frame"
                 ),
-                fix=f"set back_step.angle to at least {limit} deg, or take more teeth on the ring gear",
+                fix=f"set back_step.angle to at least {limit} deg, or use more teeth on the ring gear",
             )
         frames = always.with_step(angle)
         if not frames:
@@ -288,7 +288,8 @@ class DwellSynthesis(TwoGearFourBar):
         band = self.asked_tolerance
         if band is not None and self._mean * window <= 2.0 * band:
             raise NoSolution(
-                f"uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage needed",
+                f"even a uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage "
+                "needed",
                 fix="raise dwell.window, or reduce dwell.tolerance",
             )
 

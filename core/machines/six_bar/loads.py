@@ -50,7 +50,7 @@ class SixBarLoads(LoadsDesign):
                 raise NoSolution(
                     f"this six-bar has no gear that turns freely there{known}",
                     key=f"loads.links.{name}",
-                    fix="leave its mass out; a gear at the end of a train belongs to the link that it is fixed to",
+                    fix="omit its mass; a gear at the end of a train belongs to the link that it is fixed to",
                 )
         return (*LINKS[1:], *free)
 
@@ -86,7 +86,9 @@ class SixBarLoads(LoadsDesign):
             fix = error.fix.replace(", or give range: {start, end}", "")
             if "dead centre at" in error.message:
                 fix = "lengthen the couplers, or shorten input and output"
-            message = f"loads are those of the whole period{', whatever the range' if ranged else ''}: {error.message}"
+            message = (
+                f"loads are computed over the whole period{', whatever the range' if ranged else ''}: {error.message}"
+            )
             raise NoSolution(message, key="range" if ranged else error.key, fix=fix) from error
         assert turns is not None, "without a range there is a period"
         return turns

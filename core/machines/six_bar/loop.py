@@ -97,7 +97,7 @@ def reduced(rows: Sequence[Row]) -> tuple[list[Row], list[int]]:
         if len(pivots) == len(left):
             return [tuple(row) for row in left], pivots
     raise NoSolution(
-        "both trains tie the same links in the same ratio, the second takes no freedom away",
+        "both trains couple the same links in the same ratio: the second removes no degree of freedom",
         key="trains",
         fix="put it on other pins",
     )
@@ -471,11 +471,11 @@ class _Refusals:
             low, high = sorted((math.degrees(q), math.degrees(back)))
             free = f"between {low:.6g} and {high:.6g} deg"
         return NoSolution(
-            f"the six-bar meets a dead centre at input angle {short(math.degrees(q))} deg, where it jams",
+            f"the six-bar reaches a dead centre at input angle {short(math.degrees(q))} deg, where it jams",
             key="range" if ranged else "links",
             fix=(
-                f"let the input swing {free} (range: {{start, end}}), lengthen the couplers, or shorten "
-                "input and output"
+                f"let the input oscillate {free} (range: {{start, end}}), lengthen the couplers, or shorten input and "
+                "output"
             ),
         )
 
@@ -483,12 +483,13 @@ class _Refusals:
         return NoSolution(
             f"the six-bar does not return to its start position within {MOST_TURNS} turns of the input",
             key="trains",
-            fix="take teeth with common factors, or give range: {start, end}",
+            fix="use teeth with common factors, or give range: {start, end}",
         )
 
     def too_fast(self, q: float, steps: int) -> NoSolution:
         return NoSolution(
-            f"the motion is too fast to follow: {steps} steps lead to input angle {short(math.degrees(q))} deg",
+            f"the motion changes too fast to be computed: {steps} steps lead to input angle {short(math.degrees(q))} "
+            "deg",
             key="links",
             fix="check lengths and teeth: some sizes are hundreds of times larger than others",
         )

@@ -66,7 +66,7 @@ class SixTrain(Spec):
             if one + other >= 0 and min(one, other) < 0:
                 raise refused("a ring gear needs more teeth than the gear in it\nchange one of the two", f"gears[{k}]")
         if sum(z < 0 for z in self.gears) > 1:
-            raise refused("a train takes one ring\nmake the others external gears", "gears")
+            raise refused("a train has at most one ring gear\nmake the other gears external", "gears")
         require_rim(self.rim, -min(self.gears) if min(self.gears) < 0 else None, self.module)
         return self
 
@@ -108,18 +108,22 @@ class GearedSixBarSpec(DrivenSpec):
     kind: Literal["geared-six-bar"]
     links: SixLinks
     trains: Annotated[list[SixTrain], Field(min_length=2, max_length=2)] = Field(
-        description="the two trains; each ties the links before, under and after it"
+        description="the two gear trains; each couples the links before, under and after it"
     )
     start: SixStart
     assembly: Assembly = Field(
         1,
-        description="+1: of the two links that start leaves out, both taken on the way from A to F (the output E->F, "
-        "against its direction in start), the first points left of the second; -1: right",
+        description=(
+            "+1: of the two links that start omits, both directed from A to F (the output E->F, opposite to its "
+            "direction in start), the first points to the left of the second; -1: to the right"
+        ),
     )
     range: InputRange | None = Field(
         None,
-        description="input angles, where the input swings; default: it turns until all links are back in their "
-        "starting positions",
+        description=(
+            "range of the input if it oscillates; default: it turns until all links are back in their starting "
+            "positions"
+        ),
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: SixShafts | None = None

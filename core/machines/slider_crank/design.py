@@ -288,7 +288,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""
-        remedy = "lengthen the rod, or bring the slide line nearer"
+        remedy = "lengthen the rod, or reduce the offset"
         if self._found:  # stroke and time ratio leave the rod, or nothing
             remedy = "specify a smaller quick_return_ratio"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

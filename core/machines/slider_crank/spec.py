@@ -26,7 +26,9 @@ from gearlink.core.parts.linkages.slider_crank import SliderCrank, quick_return
 class SliderLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle, 90 deg less the rod's lean")
+    transmission_angle: AcuteAngle = Field(
+        40.0, description="minimum transmission angle, 90 deg less the rod's inclination"
+    )
 
 
 def _given_or_found(rod: float | None, keys: ValidationInfo) -> float | None:
@@ -45,7 +47,8 @@ class SliderCrankSpec(DrivenSpec):
         None, description="crank, instead of stroke; in addition to it with quick_return_ratio"
     )
     quick_return_ratio: Annotated[float, unit("1", ge=1)] | None = Field(
-        None, description="slow over fast stroke in time: the offset is found for it, and the rod if it is not given"
+        None,
+        description="time of the slow over the fast stroke: the offset is found for it, and the rod if it is not given",
     )
     rod: Annotated[Length | None, AfterValidator(_given_or_found)] = Field(
         None, validate_default=True, description="connecting rod"
@@ -65,11 +68,11 @@ class SliderCrankSpec(DrivenSpec):
         if self.quick_return_ratio is None:
             return self
         if self.stroke is None:
-            raise refused("quick_return_ratio goes with stroke\ngive it", "stroke", "GL106")
+            raise refused("quick_return_ratio needs stroke\ngive it", "stroke", "GL106")
         if "offset" in self.model_fields_set:
             raise refused("the offset is found for quick_return_ratio\nomit it", "offset")
         if self.rod is not None and self.crank is not None:
-            raise refused("stroke and quick_return_ratio leave one of rod and crank free\nomit crank", "crank")
+            raise refused("stroke and quick_return_ratio leave only rod or crank free\nomit crank", "crank")
         return self
 
     @model_validator(mode="after")

@@ -246,7 +246,9 @@ def _loss_near_dead_centre(design: SwingGripper) -> str:
 def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
     peak = design.motion.law.peaks[order - 1]
     unit = "rad/rad" if order == 1 else "rad/rad^2"
-    return step_check(rule, _jumps(design, order), peak, unit, bad, "take laws without end acceleration in laws")
+    return step_check(
+        rule, _jumps(design, order), peak, unit, bad, "in `laws` use laws with zero acceleration at the ends"
+    )
 
 
 def _jumps(design: SwingGripper, order: int) -> list[tuple[str, float]]:
@@ -286,7 +288,7 @@ def _place_check(design: SwingGripper, center: complex) -> Check:
     fits, fix = design.handover.center, f"turn arm.direction by {math.degrees(off.turn):+.4g} deg"
     if abs(off.distance) > min(limit, _MOST_OFF_PLACE):
         fix = f"set cylinder.center to [{short(fits.real)}, {short(fits.imag)}]"
-    note = "no sheet is handed over well so far off" if status == "warn" else ""
+    note = "a reliable handover needs a smaller distance" if status == "warn" else ""
     what, most = "distance of the gripper tip from the handover point", _MOST_OFF_PLACE if status == "warn" else limit
     return HANDOVER.check(status, what, off.place, most, "mm", fix=fix, note=note)
 
@@ -705,7 +707,7 @@ class GripperCams(DiscCams):
             side = 1 if math.remainder(back.angle, 360.0) > 0.0 else -1
         if side is None:
             raise NoSolution(
-                "one roller alone does not fix where the cam is", key="size", fix="give size.side, 1 or -1"
+                "one roller alone does not determine the side of the cam", key="size", fix="give size.side, 1 or -1"
             )
         rollers = [self._rocking(cam.roller, cam.roller.angle, side)]
         if back is not None:
@@ -880,7 +882,7 @@ class Closure:
             arm = math.degrees(math.remainder(cmath.phase(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
             way = "less" if arm > 0.0 else "more"
             raise NoSolution(
-                "both rollers lie on the same side of the cam: a spring that closes one lifts the other",
+                "both rollers lie on the same side of the cam: a spring that presses one lifts the other",
                 key="cam.return_roller.angle",
                 fix=f"set cam.return_roller.angle {'below' if way == 'more' else 'above'} {short(arm)} deg",
             )
@@ -1357,7 +1359,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         number, limit = self.motion.condition_number, self.spec.limits.condition_number
         agreement = self.motion.newton_agreement if self.advises else self.motion.rough_agreement
         status: Status = "warn" if number > limit else "pass"
-        what, aside = "condition number near a dead centre", f"solutions agree within {agreement:.2g} rad"
+        what, aside = "condition number of the loop", f"solutions agree within {agreement:.2g} rad"
         if agreement > _AGREEMENT * number:
             what, shown = (
                 "difference of closed form and Newton-Raphson",
@@ -1392,7 +1394,10 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
             return
         opened, half = math.degrees(self.fingers.opened), 0.5 * self.spec.fingers.open_angle
         status: Status = "fail" if opened < half else "pass"
-        what, at = "opening of the fingers where the release ends", f"{short(self.fingers.release_degrees)} deg"
+        what, at = (
+            "opening of the fingers at the end of the release window",
+            f"{short(self.fingers.release_degrees)} deg",
+        )
         fix = "lower fingers.open.from or fingers.open.over" if status == "fail" else ""
         yield FINGER_RELEASE.check(status, what, opened, half, "deg", at=at, fix=fix)
 
@@ -1424,7 +1429,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         limit = self.spec.limits.jerk_step
         where, jump = max(_jumps(self, 3), key=lambda item: abs(item[1]))
         status: Status = "warn" if limit is not None and abs(jump) > limit else "pass"
-        what, fix = "step of the swing's jerk (rad/rad^3)", "take the laws polynomial-4567 or velocity-4567"
+        what, fix = "step of the swing's jerk (rad/rad^3)", "use the laws polynomial-4567 or velocity-4567"
         return JERK_STEP.check(status, what, abs(jump), limit, at=f"the {where}", fix=fix)
 
     def check_handover(self) -> Iterator[Check]:
@@ -1490,7 +1495,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         names = [cam.name.removesuffix(" cam") for cam in self.cams.discs]
         roller, worst = max(zip(names, self.closure.worst_unloading, strict=True), key=lambda item: item[1].value)
         if speed is None:
-            return LIFT_OFF.check("pass", "no speed lifts a roller off its cam", None, None, "sheets/h")
+            return LIFT_OFF.check("pass", "no roller lifts off its cam at any speed", None, None, "sheets/h")
         status: Status = (
             "fail" if torque - worst.value <= reserve else "warn" if speed < 1.1 * self.spec.speed else "pass"
         )

@@ -163,9 +163,9 @@ class FingerCam:
                 found.append(law(getattr(self.section, name).law))
             if found[-1].kind != "rest-to-rest":
                 raise NoSolution(
-                    f"fingers rest before and after: {found[-1].name} is {found[-1].kind}",
+                    f"fingers are at rest before and after their motion: {found[-1].name} is {found[-1].kind}",
                     key=f"fingers.{name}.law",
-                    fix="take cycloidal or modified-sine",
+                    fix="use cycloidal or modified-sine",
                 )
         return found[0], found[1]
 
@@ -208,7 +208,7 @@ class FingerCam:
         if np.min(rate) <= 0.0:
             worst = float(degrees[int(np.argmin(rate))])
             raise NoSolution(
-                f"the arm returns as fast as the cam of its fingers turns, at cylinder angle {worst:.4g} deg",
+                f"the arm returns as fast as the cam of the fingers turns, at cylinder angle {worst:.4g} deg",
                 key="fingers",
                 fix="lengthen phases.return",
             )

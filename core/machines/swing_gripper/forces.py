@@ -255,7 +255,7 @@ class Stop:
                 "the spring turns the arm away from a stop in the near dwell: the cam lifts its roller on the "
                 "return stroke",
                 key="stop",
-                fix="leave out stop, or put the main roller on the other side of its cam",
+                fix="omit stop, or put the main roller on the other side of its cam",
             )
         return self.closure.closing_torque * abs(first) / (_M * self.section.radius)
 

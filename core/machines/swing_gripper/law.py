@@ -293,11 +293,11 @@ def require_law(phase: str, law: Law) -> None:
     if law.kind != kind:
         usual = "cycloidal or modified-sine" if kind == "rest-to-rest" else "velocity-345 or half-cycloidal"
         raise NoSolution(
-            f"phase {phase} needs a {kind} law; {law.name} is {law.kind}", key=f"laws.{phase}", fix=f"take {usual}"
+            f"phase {phase} needs a {kind} law; {law.name} is {law.kind}", key=f"laws.{phase}", fix=f"use {usual}"
         )
     if law.end_jumps:
         raise NoSolution(
             f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell",
             key=f"laws.{phase}",
-            fix="take cycloidal, modified-sine or polynomial-345",
+            fix="use cycloidal, modified-sine or polynomial-345",
         )

@@ -42,7 +42,7 @@ def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
     """A section of the design file that a result needs."""
     value = getattr(spec, section)
     if value is None:
-        raise MissingSection(f"this needs the section {section}: {words}", key=section)
+        raise MissingSection(f"the command needs the section {section}: {words}", key=section)
     return value
 
 

@@ -31,7 +31,7 @@ class Cylinder(Spec):
     """The cylinder that takes the sheet over."""
 
     radius: Length = Field(description="radius R of the cylinder")
-    center: Point | None = Field(None, description="its axis; default: the axis that fits is reported")
+    center: Point | None = Field(None, description="axis of the cylinder; default: the axis that fits is reported")
 
 
 class Arm(Spec):
@@ -63,16 +63,18 @@ class Phases(Spec):
     constant: Phase | None = Field(None, description="at the speed of the cylinder; the handover lies in it")
     decelerate: Phase | None = Field(None, description="to the far dwell")
     far_dwell: Annotated[float, unit("deg", ge=0, lt=360)] | None = Field(
-        None, description="rest at the far end; 0: the arm turns back at once"
+        None, description="dwell at the far end; 0: the arm reverses at once"
     )
     return_: Phase | None = Field(None, alias="return", description="back to the pick-up position")
     near_dwell: Phase | None = Field(
-        None, description="rest at the pick-up position; one phase without a value takes the remaining angle"
+        None, description="dwell at the pick-up position; one phase without a value takes the remaining angle"
     )
     balance: Annotated[float, unit("1", ge=0.01, le=100)] | None = Field(
         None,
-        description="sizes accelerate, decelerate and return: peak acceleration of the return over theirs, which are "
-        "equal",
+        description=(
+            "peak acceleration of the return over that of accelerate and decelerate, which are equal: determines "
+            "these three phases"
+        ),
     )
 
     @model_validator(mode="after")
@@ -197,7 +199,7 @@ class ClosingSpring(Spec):
     """The spring that pulls the two rockers together: its torque, or the levers and the pull that make it."""
 
     torque: Annotated[float, unit("N m", gt=0)] | None = Field(
-        None, description="torque on each rocker; or else: arms, angle, preload"
+        None, description="torque on each rocker; alternatively arms, angle, preload"
     )
     arms: Annotated[list[Length], Field(min_length=2, max_length=2), Entries("[cam rocker, return rocker]")] | None = (
         Field(None, description="A to the spring's ends on cam rocker and return rocker")
@@ -216,7 +218,7 @@ class ClosingSpring(Spec):
         missing = [key for key, value in needed.items() if value is None]
         given = [key for key in (*needed, "rate", "length") if getattr(self, key) is not None]
         if self.torque is not None and given:
-            text = f"torque and {given[0]} exclude each other\ngive the torque, or the levers that make it"
+            text = f"torque and {given[0]} exclude each other\ngive the torque, or the levers that produce it"
             raise refused(text, "torque")
         if self.torque is None and missing:
             raise refused(f"give torque, or arms, angle and preload; {', '.join(missing)} missing", "torque")
@@ -241,16 +243,18 @@ class ArmStop(Spec):
 class FingersOpen(Spec):
     """Where the fingers open."""
 
-    from_: Phase = Field(alias="from", description="cylinder angle at which they begin to open")
-    over: Phase = Field(description="cylinder angle that they take")
+    from_: Phase = Field(alias="from", description="cylinder angle at which the fingers begin to open")
+    over: Phase = Field(description="cylinder angle of this motion")
     law: MotionLaw = Field("cycloidal", description="rest-to-rest law")
 
 
 class FingersClose(Spec):
     """Where the fingers close again."""
 
-    to: Annotated[float, unit("deg", gt=0, le=360)] = Field(description="cylinder angle at which they are closed")
-    over: Phase = Field(description="cylinder angle that they take")
+    to: Annotated[float, unit("deg", gt=0, le=360)] = Field(
+        description="cylinder angle at which the fingers are closed"
+    )
+    over: Phase = Field(description="cylinder angle of this motion")
     law: MotionLaw = Field("cycloidal", description="rest-to-rest law")
 
 
@@ -282,7 +286,9 @@ class GripperLimits(LoadLimits):
 
     transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle, at D and at C")
     pressure_angle: AcuteAngle = Field(45.0, description="maximum pressure angle of the cams")
-    accelerate_pressure_angle: AcuteAngle = Field(30.0, description="the same in the phase accelerate; only warns")
+    accelerate_pressure_angle: AcuteAngle = Field(
+        30.0, description="maximum pressure angle in the phase accelerate; only warns"
+    )
     condition_number: Annotated[float, unit("1", gt=1)] = Field(
         100.0, description="maximum condition number of the loop, 1/sin(mu); only warns"
     )
@@ -292,7 +298,7 @@ class GripperLimits(LoadLimits):
         json_schema_extra={"unit": "mm", **also("handover_position")},
     )
     least_shaft: Length | None = Field(
-        None, description="minimum radius of a shaft that would be built; default: that of the roller"
+        None, description="minimum shaft radius where the file gives none; default: that of the roller"
     )
     return_acceleration: Annotated[float, unit("1", gt=0)] | None = Field(
         None, description="peak acceleration of the return over that of the phase accelerate; none: no limit"

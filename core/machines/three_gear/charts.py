@@ -138,7 +138,7 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
                 f"nonuniformity: {unlike(value, 2.0 * (1.0 - at))} (above 0, below 2 (1 - i3) = "
                 f"{unlike(2.0 * (1.0 - at), value)}; i3 {short(at)})"
             ),
-            fix="reduce the nonuniformity, or take an idler of more teeth",
+            fix="reduce the nonuniformity, or use an idler of more teeth",
         )
     q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)
     return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))

@@ -10,10 +10,11 @@ from gearlink.core.base.report import Rule
 ACHIEVED = Rule(
     "GL304",
     "achieved value differs from the required value",
-    "Whole numbers of teeth change the required ratio, or the back-step of the given teeth is not the "
-    "required one (a warning).",
-    "All results belong to the teeth that can be made, not to the required ratio.",
-    "Accept it, specify a ratio of whole teeth, or leave idler or crank_angle out so that they are chosen to fit.",
+    "Whole numbers of teeth do not give exactly the required ratio, or the given teeth do not give the required "
+    "back-step (a warning).",
+    "All results are those of the whole numbers of teeth, not of the required ratio.",
+    "Accept the difference, specify a ratio of whole numbers of teeth, or omit idler or crank_angle so that it is "
+    "found.",
     "i3 = -z3/z5; back-step 2 n atan(tan(h)/n) - 2 h with n = 1 - i3, h = phi12/2; warns beyond 0.5 deg",
     "thesis (4-19)",
     ("back-step-target", "rounded-ratio"),
@@ -26,8 +27,8 @@ BACK_STEP = Rule(
     "output moves during the dwell angle",
     "dwell.angle is the crank angle until the output is back at its starting position; meanwhile it steps back "
     "and returns.",
-    "Half of that back-step is more than dwell_tolerance (1 deg where the file names none): the output does not dwell.",
-    "Specify dwell: {window, tolerance} instead of angle, or name the dwell_tolerance that the machine bears.",
+    "Half of that back-step is more than dwell_tolerance (1 deg by default): the output does not dwell.",
+    "Specify dwell: {window, tolerance} instead of angle, or set dwell_tolerance to what the machine allows.",
     "D/2 <= dwell_tolerance",
     "thesis (4-16), (4-19)",
     ("back-step",),
@@ -37,10 +38,11 @@ BACK_STEP = Rule(
 DWELL_TOLERANCE = Rule(
     "GL317",
     "dwell tolerance too large",
-    "The band of the tolerance, or of the play, is as wide as what the output gains in a revolution of the crank.",
+    "The band of the tolerance, or of the play, is as wide as the net rotation of the output per revolution of the "
+    "crank.",
     "The output would never leave the tolerance band: this is no dwell.",
-    "Give a smaller dwell_tolerance, dwell.tolerance or dwell_backlash.",
-    "tol < pi mean_ratio; of a play j at the output gear tol = j/(2 r5)",
+    "Reduce dwell_tolerance, dwell.tolerance or dwell_backlash.",
+    "tol < pi mean_ratio; for a play j at the output gear tol = j/(2 r5)",
     "own derivation",
     ("dwell-tolerance",),
     ("dwell_tolerance", "dwell.tolerance", "dwell_backlash"),

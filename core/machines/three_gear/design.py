@@ -508,13 +508,13 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         if self.task is not None and not self.train.internal:
             idler = self.task.idler_with_room(self.idler_teeth)
             if idler is not None:
-                return f"take an idler of {idler} teeth or more"
+                return f"use an idler of {idler} teeth or more"
         module = self.spec.gears.transverse_module
         if self.spec.momentary is not None and (shorter := self._longest_crank_with_room()) is not None:
-            return f"take a crank of at most {safely_below(shorter)} mm (synth momentary-dwell)"
+            return f"use a crank of at most {safely_below(shorter)} mm (synth momentary-dwell)"
         fewer = amount(math.ceil(2.0 * missing / module), "tooth", "teeth")
         return (
-            f"increase frame minus crank by {safely_above(missing)} mm, or take {fewer} less on crank and output gear"
+            f"increase frame minus crank by {safely_above(missing)} mm, or use {fewer} fewer on crank and output gear"
         )
 
     def _longest_crank_with_room(self) -> float | None:
@@ -530,7 +530,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
-        remedy = "shorten the crank or take a larger idler"
+        remedy = "shorten the crank or use a larger idler"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
 
     def check_dwell_window(self) -> Iterator[Check]:
@@ -551,8 +551,8 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         if self.output_tolerance is None:
             return
         given, limit = math.degrees(self.output_tolerance), math.degrees(self.endless_tolerance)
-        aside = f"the output gains {short(2.0 * limit)} deg per revolution"
-        fix = f"set the tolerance below {safely_below(limit)} deg: within it the dwell has no end"
+        aside = f"net output rotation {short(2.0 * limit)} deg per revolution"
+        fix = f"set the tolerance below {safely_below(limit)} deg: with a larger one the dwell never ends"
         yield tolerance_judged(given, limit).check("dwell tolerance", fix, aside=aside)
 
     @cached_property
@@ -713,7 +713,7 @@ def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
     ring, other = ("the output ring", "the crank gear") if train.output < 0 else ("the crank ring", "the output gear")
     if gap >= limit:
         return GEAR_COLLISION.check("pass", f"gap between the tips of {other} and {ring}", gap, limit, "mm")
-    fix = "put them side by side on a wide idler, in planes of their own"
+    fix = "put both gears in separate planes, side by side on a wide idler"
     return GEAR_COLLISION.check("warn", f"{other} sweeps through {ring}", fix=fix)
 
 

@@ -237,6 +237,6 @@ def tolerance_from_backlash(backlash: float, output_radius: float) -> float:
     """
     if not (backlash > 0.0 and output_radius > 0.0):
         raise NoSolution(
-            f"backlash {backlash:g} mm at radius {output_radius:g} mm gives no tolerance; both must be positive"
+            f"backlash {backlash:g} mm at radius {output_radius:g} mm gives no dwell tolerance; both must be positive"
         )
     return backlash / (2.0 * output_radius)

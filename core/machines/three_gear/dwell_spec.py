@@ -11,10 +11,10 @@ from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 class Placing(Spec):
     """What fixes crank and frame of unequal gears besides the task, which fixes only one of them."""
 
-    crank: Length | None = Field(None, description="crank AB, for gears of any size; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, instead of crank; the crank is sought")
+    crank: Length | None = Field(None, description="crank AB, for gears of any size; the frame is found")
+    frame: Length | None = Field(None, description="frame AD, instead of crank; the crank is found")
     balanced: Literal[True] | None = Field(
-        None, description="true, instead of crank: the transmission angle deviates equally at both ends"
+        None, description="true, instead of crank: equal deviation of the transmission angle from 90 deg at both ends"
     )
 
     @model_validator(mode="after")
@@ -40,9 +40,9 @@ class Dwell(DwellBand, Placing):
         if self.angle is None and self.window is None and self.tolerance is None:
             raise refused("give angle, window or tolerance", "angle", "GL106")
         if self.angle is not None and (self.window is not None or self.tolerance is not None):
-            message = "angle excludes window and tolerance: it specifies another dwell"
+            message = "angle excludes window and tolerance: it defines the dwell differently"
             raise refused(message, "window" if self.window is not None else "tolerance")
         if self.margin is not None and (self.window is not None or self.tolerance is None):
-            message = "margin goes with tolerance alone\nomit it"
+            message = "margin applies only with tolerance alone\nomit it"
             raise refused(message, "margin")
         return self

@@ -219,7 +219,7 @@ class DwellTask(FamilyTask):
                 f"these gears and this crank, frame {short(place)} mm, or +-{safely_above(math.degrees(least))} deg; "
                 f"its back-step is at least {safely_above(math.degrees(always.least_step[1]))} deg)"
             ),
-            fix="take a shorter crank",
+            fix="use a shorter crank",
         )
 
     def _fills(self, family: Family, train: GearTrain) -> FourBar:
@@ -236,7 +236,8 @@ class DwellTask(FamilyTask):
         band, window = self.band, self.window
         if band is not None and window is not None and ratio * window <= 2.0 * band:
             raise NoSolution(
-                f"uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage needed",
+                f"even a uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage "
+                "needed",
                 fix="raise dwell.window, or reduce dwell.tolerance",
             )
 

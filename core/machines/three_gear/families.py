@@ -212,7 +212,7 @@ def solved(
     low, high = family.stepping()
     least, most = measure(family.linkage(low)), measure(family.linkage(high))
     if most <= 0.0:
-        raise NoSolution(f"{what} cannot be had: no linkage with this crank or frame makes the output step back")
+        raise NoSolution(f"{what} is impossible: no linkage with this crank or frame makes the output step back")
     if not target <= most:
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
         limit = safely_below(math.degrees(share * most))
@@ -225,7 +225,7 @@ def solved(
         raise NoSolution(
             f"{what} is out of reach: at least {limit} deg as a crank-rocker with this crank, whose output steps back "
             "with every frame",
-            fix=f"set {key or 'it'} to at least {limit} deg, or take a shorter crank",
+            fix=f"set {key or 'it'} to at least {limit} deg, or use a shorter crank",
         )
     ends = (least - target, most - target)
     return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high, ends=ends))
@@ -266,8 +266,8 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float, maxim
     below, above = sorted((least, most))
     if not below <= quotient <= above:
         limits = f"from {safely_above(below, 4)} to {safely_below(above, 4)} with these gears"
-        slow = f"at least {safely_above(below * maximum, 4)}, or take a longer crank"
-        fast = f"at most {safely_below(above * maximum, 4)}, or take a shorter crank"
+        slow = f"at least {safely_above(below * maximum, 4)}, or use a longer crank"
+        fast = f"at most {safely_below(above * maximum, 4)}, or use a shorter crank"
         raise NoSolution(
             f"min/max of the output speed: {short(quotient)} ({limits})",
             fix=f"set speed.min to {slow if quotient < below else fast}",

@@ -178,7 +178,7 @@ def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
                 f"{short(2 * r5)} mm reference diameter: crank above {unlike(low, high)} and below "
                 f"{unlike(high, low)} mm"
             ),
-            fix="take a larger idler or an output gear not smaller than the crank gear",
+            fix="use a larger idler or an output gear not smaller than the crank gear",
         )
     return low, high
 
@@ -489,7 +489,7 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
         raise NoSolution(
             f"reference diameter of the ring gear: {abs(2.0 * r5):.4g} mm (limit > {least} mm): it never stops the "
             "output, as it does not reach round the crank gear and the idler",
-            fix="take more teeth on the output gear, or fewer on crank gear and idler",
+            fix="use more teeth on the output gear, or fewer on crank gear and idler",
         )
     sigma = 1 if t > 0.0 else -1
     p, root = s * s + (r1 - r5) * (r1 + r5), math.sqrt(q)
@@ -497,7 +497,7 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
     slope = -sigma * whole / (2.0 * r1 * r1 * root)  # X* = slope h
     reach = r1 * r1 + 1.0 / slope
     if not slope < 0.0 or reach >= r1 * r1:
-        raise NoSolution("no crank makes these gears just stop the output", fix="change the teeth")
+        raise NoSolution("no crank makes these gears stop the output momentarily", fix="change the teeth")
     facing = 1 if (r1 + r3) * (r3 + r5) > 0.0 else -1
     low = math.sqrt(max(0.0, reach))
     return Shape(sigma, r1, r5, whole / (2.0 * r1 * r1) - 1.0, low, abs(r1), 2.0 * s * r1 * r1 / whole, facing)

@@ -86,11 +86,12 @@ class ThreeGearSamples:
     def __init__(self, nominal: ThreeGearFourBar) -> None:
         if nominal.spec.gears.helix_angle:
             raise NoSolution(
-                "tolerance and register take spur gears only", key="gears.helix_angle", fix="omit helix_angle"
+                "tolerance and register apply only to spur gears", key="gears.helix_angle", fix="omit helix_angle"
             )
         if nominal.off_center:
             raise NoSolution(
-                "tolerance and register take only meshes whose profile shifts add up to 0", key="gears.profile_shift"
+                "tolerance and register apply only to meshes whose profile shifts add up to 0",
+                key="gears.profile_shift",
             )
         self.nominal = nominal
         links = nominal.linkage

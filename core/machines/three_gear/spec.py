@@ -46,10 +46,10 @@ class Gears(TrainKeys):
     def _rings_are_larger(self) -> Self:
         for key, teeth in (("crank", self.crank), ("output", self.output)):
             if teeth < 0 and self.idler is not None and -teeth <= self.idler:
-                message = f"a ring gear of {-teeth} teeth does not take an idler of {self.idler}"
+                message = f"an idler of {self.idler} teeth does not fit into a ring gear of {-teeth}"
                 raise refused(f"{message}\nset gears.{key} below -{self.idler}", key)
         if self.i3 is not None and min(self.crank, self.output) < 0:
-            message = "i3 goes with external gears\ngive idler instead of i3"
+            message = "i3 applies only to external gears\ngive idler instead of i3"
             raise refused(message, "i3")
         ring = -self.output if self.output < 0 else None
         require_rim(self.rim, ring, self.module, own_teeth=self.own_teeth)
@@ -61,7 +61,8 @@ class Gears(TrainKeys):
             raise refused("i3 and idler exclude each other\nomit i3 or idler", "i3")
         if self.i3 is not None and self.crank != self.output:
             message = (
-                f"i3 goes with equal crank and output teeth\nset output to {self.crank}, or give idler instead of i3"
+                f"i3 applies only to equal crank and output teeth\nset output to {self.crank}, or give idler instead "
+                "of i3"
             )
             raise refused(message, "output")
         return self
@@ -106,10 +107,14 @@ class ThreeGearSpec(DrivenSpec):
         None, description="play at the output gear's reference circle, instead of dwell_tolerance"
     )
     uniform_tolerance: UniformTolerance | None = Field(
-        None, description="share by which the output's speed may differ from a level: the longest such stretch is given"
+        None,
+        description=(
+            "permitted relative deviation of the output speed from a level: the longest crank angle of such nearly "
+            "uniform speed is given"
+        ),
     )
     feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(
-        None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
+        None, description="what the output feeds: a roller or belt by its radius, or a chain by pitch and teeth"
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: Annotated[Any, Deferred("machines.three_gear.task_spec:Shafts")] | None = Field(
@@ -130,14 +135,14 @@ class ThreeGearSpec(DrivenSpec):
             message = "dwell_tolerance and dwell.tolerance specify the same\nomit dwell_tolerance or dwell.tolerance"
             raise refused(message, "dwell_tolerance")
         if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
-            message = "dwell_window goes with dwell_tolerance or dwell_backlash\nadd dwell_tolerance or dwell_backlash"
+            message = "dwell_window needs dwell_tolerance or dwell_backlash\nadd dwell_tolerance or dwell_backlash"
             raise refused(message, "dwell_window")
         return self
 
     @model_validator(mode="after")
     def _lay_has_a_speed(self) -> Self:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None and self.speed is None:
-            message = "the speed at the lay needs the input's\ngive input_speed"
+            message = "the speed at the lay needs the input speed\ngive input_speed"
             raise refused(message, "input_speed", "GL106")
         return self
 

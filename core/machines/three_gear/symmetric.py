@@ -289,8 +289,8 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
     if v == 1.0:
         raise NoSolution(
             (
-                f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is "
-                f"the limit, {_deg(limit)} deg, to rounding, and takes an endless idler"
+                f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is the limit, "
+                f"{_deg(limit)} deg, to rounding, and needs an infinite idler"
             ),
             fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
         )
@@ -325,7 +325,7 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
                 f"{_deg(limit, back_step_angle)} "
                 f"deg; i3 {short(i3)})"
             ),
-            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or take an idler of more teeth",
+            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or use an idler of more teeth",
         )
     n, v = 1.0 - i3, i3 / (i3 - 1.0)
     h: float = half_angle_for_back_step(n, back_step_angle)
@@ -581,7 +581,7 @@ def _ratio_remedy(phi13: float) -> str:
     if not 0.0 < phi13 < 2.0 * math.pi:
         return ""
     least = 2.0 * (phi13 - math.pi) / (2.0 * math.pi - phi13)
-    return f" or take -i3 above {safely_above(least)} (an idler of more teeth)"
+    return f" or use -i3 above {safely_above(least)} (an idler of more teeth)"
 
 
 def longest_window(i3: float, tolerance: float) -> float:
@@ -686,8 +686,8 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
     if not window > 2.0 * tolerance:
         raise NoSolution(
             (
-                f"an even motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of "
-                f"the crank: a window of {_deg(window)} deg needs no linkage"
+                f"a uniform motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of the crank: "
+                f"a window of {_deg(window)} deg needs no linkage"
             ),
             fix=f"set dwell.window above {safely_above(math.degrees(2.0 * tolerance))} deg",
         )
@@ -742,8 +742,8 @@ def _other_idler(i3: float, window: float, tolerance: float) -> str:
     if ratios is None:
         return ""
     if -i3 < ratios[0]:
-        return f", or take -i3 of at least {safely_above(ratios[0])} (a larger idler)"
-    return f", or take -i3 of at most {safely_below(ratios[1])} (a smaller idler)"
+        return f", or use -i3 of at least {safely_above(ratios[0])} (a larger idler)"
+    return f", or use -i3 of at most {safely_below(ratios[1])} (a smaller idler)"
 
 
 @lru_cache

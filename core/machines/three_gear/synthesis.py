@@ -192,7 +192,7 @@ class FamilyTask(Task):
         if not self.general and gears.crank != gears.output:
             raise NoSolution(
                 (
-                    f"this synthesis belongs to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
+                    f"this synthesis applies to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
                     "teeth must be equal"
                 ),
                 key="gears.output",
@@ -427,7 +427,7 @@ class BackStepTask(FamilyTask):
             raise NoSolution(
                 "with crank, frame or balanced one of angle and crank_angle can be met",
                 key="back_step.crank_angle",
-                fix="leave the other out",
+                fix="omit the other",
             )
         if task.angle is not None:
             with at_key("back_step.angle"):
@@ -521,7 +521,7 @@ class SpeedTask(FamilyTask):
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
         if self.request.uniform_angle is not None:
-            message = "an even stretch is found of equal crank and output gears alone\nset gears.output to gears.crank"
+            message = "uniform_angle applies only to equal crank and output gears\nset gears.output to gears.crank"
             raise NoSolution(message, key="gears.output")
         from gearlink.core.machines.three_gear.families import with_speed_quotient
 

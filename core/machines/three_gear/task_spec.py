@@ -29,10 +29,10 @@ class Speed(Placing):
     min: Annotated[float, unit("1/min")] | None = Field(None, description="minimum output speed")
     max: Annotated[float, unit("1/min", gt=0)] | None = Field(None, description="maximum output speed")
     uniform_angle: Annotated[float, unit("deg", gt=0, lt=360)] | None = Field(
-        None, description="instead of min and max: crank angle in which the output runs at a nearly even speed"
+        None, description="instead of min and max: crank angle over which the output runs at nearly uniform speed"
     )
     uniform_tolerance: Annotated[float, unit("1", gt=0, lt=1)] | None = Field(
-        None, description="share by which that speed may differ from its level"
+        None, description="permitted relative deviation of that speed from its level"
     )
 
     @model_validator(mode="after")
@@ -52,13 +52,14 @@ class Speed(Placing):
 class Momentary(Spec):
     """Specification for `synth momentary-dwell`: one of the four."""
 
-    eccentricity: Length | None = Field(None, description="crank length e; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, instead of eccentricity; the crank is sought")
+    eccentricity: Length | None = Field(None, description="crank length e; the frame is found")
+    frame: Length | None = Field(None, description="frame AD, instead of eccentricity; the crank is found")
     gap: SignedLength | None = Field(
         None, description="gap between the tips of gears 1 and 5 at the closest, instead of eccentricity"
     )
     balanced: Literal[True] | None = Field(
-        None, description="true, instead of eccentricity: the transmission angle deviates equally at both ends"
+        None,
+        description="true, instead of eccentricity: equal deviation of the transmission angle from 90 deg at both ends",
     )
 
     @model_validator(mode="after")

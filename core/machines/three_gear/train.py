@@ -43,7 +43,7 @@ class GearTrain:
             if not math.isfinite(teeth) or teeth == 0 or (name == "idler" and teeth < 0):
                 raise NoSolution(f"the {name} has {teeth:g} teeth; the number must be positive and finite")
             if teeth == -self.idler:
-                raise NoSolution(f"the {name}, a ring, is no larger than the idler of {self.idler:g} teeth")
+                raise NoSolution(f"the {name}, a ring, is not larger than the idler of {self.idler:g} teeth")
 
     @property
     def internal(self) -> bool:

@@ -84,7 +84,7 @@ class ParallelShafts:
     def _second(self) -> SecondShaft:
         second = self.design.section.second
         if second is None:
-            raise MissingSection("this needs layout: twin-cam-parallel and cam.second: direction", key="cam")
+            raise MissingSection("the command needs layout: twin-cam-parallel and cam.second: direction", key="cam")
         return second
 
     @property
@@ -134,7 +134,7 @@ class ParallelShafts:
 
         given = self.design.spec.gears
         if given is None:
-            raise MissingSection("this needs the section gears: module", key="gears")
+            raise MissingSection("the command needs the section gears: module", key="gears")
         # what m z leaves of the distance is made up by positive shift
         teeth = given.teeth or int(self.shaft_distance * math.cos(math.radians(given.helix_angle)) / given.module)
         with in_section("gears"):
@@ -282,7 +282,7 @@ def _pressure_remedy(design: WideSwingDesign) -> str:
 
 def _covered(cam: AnyCam, words: str) -> Check:
     what = f"the roller (radius {short(cam.roller_radius)} mm) covers the whole profile of the {words}"
-    return CAM_UNDERCUT.check("fail", what, None, 1.0, fix="take a smaller cam.roller_radius")
+    return CAM_UNDERCUT.check("fail", what, None, 1.0, fix="use a smaller cam.roller_radius")
 
 
 def _left_out(cam: AnyCam) -> str:
@@ -302,7 +302,7 @@ def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]
     if roller >= estimate:
         what, shown = "roller radius, internal profile", Shown(roller, estimate, "mm", "<=")
         aside = "the source's estimate of the curvature radius at mid-swing"
-        fix = f"take a roller of at most {safely_below(0.999 * estimate)} mm"
+        fix = f"use a roller of at most {safely_below(0.999 * estimate)} mm"
         yield CAM_UNDERCUT.check("warn", what, roller / estimate, 1.0, shown=shown, aside=aside, fix=fix)
 
 
@@ -621,7 +621,7 @@ class WideSwingDesign(Design):
     def section(self) -> SwingCam:
         """The section `cam` of the design file."""
         if self.spec.cam is None:
-            raise MissingSection("this needs the section cam: center_distance, roller_radius", key="cam")
+            raise MissingSection("the command needs the section cam: center_distance, roller_radius", key="cam")
         return self.spec.cam
 
     @cached_property
@@ -635,9 +635,11 @@ class WideSwingDesign(Design):
     def even_cam(self) -> WideSwingCam:
         """The cam of the working stroke, turning evenly."""
         if self.spec.drive is not None:
-            raise NoSolution("this is a result of a cam that turns evenly", key="drive", fix="leave out drive")
+            raise NoSolution("this result exists only for a cam at constant speed", key="drive", fix="omit drive")
         if self.spec.slider is not None:
-            raise NoSolution("this is a result of a cam of a rocker alone", key="slider", fix="leave out slider")
+            raise NoSolution(
+                "this result exists only for a cam of a rocker without slider", key="slider", fix="omit slider"
+            )
         layout: Layout = "twin-rocker" if self.spec.layout == "twin-rocker" else "twin-cam"
         return self._even(layout, self.motion.cycle_angle, self.section.rocker_radius, "working")
 
@@ -668,7 +670,7 @@ class WideSwingDesign(Design):
     def other_cam(self) -> WideSwingCam:
         """The same, where the file gives one."""
         if self.return_cam is None:
-            words = "the return cam is the mirror image of the other: its own results are those of that cam"
+            words = "the return cam is the mirror image of the main cam and has the same results"
             raise NoSolution(words, key="layout", fix="use the name without return_")
         return self.return_cam
 
@@ -1058,7 +1060,7 @@ class WideSwingDesign(Design):
         yield TURNABILITY.check(status, "pivot ratio of the balancing device", ratio, least, aside=aside, fix=fix)
         capacity = getattr(self.spec.unloader, "stretch_capacity", None) or 0.0
         if status == "pass" and capacity > MOST_STRETCH:
-            yield from _room_for_steel(self, "take another device, or a smaller unloader.stretch_capacity")
+            yield from _room_for_steel(self, "use another device, or a smaller unloader.stretch_capacity")
 
     def check_force_closure(self) -> Iterator[Check]:
         """GL509: a spring that is slack at mid-swing does not hold the roller there."""
@@ -1071,7 +1073,7 @@ class WideSwingDesign(Design):
         if status == "warn":
             aside = "the spring is slack at mid-swing"
             given = unloader.free_length is not None
-            fix = "take a shorter spring" if given else "set unloader.stretch_ratio above 0, such as 0.1"
+            fix = "use a shorter spring" if given else "set unloader.stretch_ratio above 0, such as 0.1"
         yield FORCE_CLOSURE.check(status, what, stretch, 0.0, aside=aside, fix=fix)
 
     def check_cycle_angles(self) -> Iterator[Check]:
@@ -1100,7 +1102,7 @@ class WideSwingDesign(Design):
             lowest,
             harm,
             "1/min",
-            aside="below, the device increases the torque" if status == "warn" else "",
+            aside="below this speed the device increases the torque" if status == "warn" else "",
             fix=f"reduce its force or rate to {safely_below(share, 3)} of the design value at that speed, or remove it",
         )
 
@@ -1114,7 +1116,7 @@ class WideSwingDesign(Design):
             self.cam.require_profile()
         except NoSolution as error:
             crank = remedies.drive_crank(self) if self.spec.drive is not None else None
-            fix = f"make drive.crank at most {crank:.12g} mm" if crank else error.fix
+            fix = f"set drive.crank to at most {crank:.12g} mm" if crank else error.fix
             return PROFILE_EXISTS.check("fail", error.message, shown, 0.0, shown=NO_NUMBER, fix=fix)
         aside = ""
         if self.spec.drive is None and self.spec.slider is None:
@@ -1147,9 +1149,9 @@ class WideSwingDesign(Design):
             share = roller / least
             status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
             if status != "pass":
-                fix = "take a smaller roller"
+                fix = "use a smaller roller"
                 if cam.contact[0][0] <= 0.0 and cam.contact[1][1] >= 1.0:  # else it also moves where the profile ends
-                    fix = f"take a roller of at most {safely_below(remedies.roller_for_curvature(self))} mm"
+                    fix = f"use a roller of at most {safely_below(remedies.roller_for_curvature(self))} mm"
             what = f"roller radius, {words}"
             shown = against_curvature(roller, least, status)
             yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, aside=_left_out(cam), fix=fix)
@@ -1166,7 +1168,7 @@ class WideSwingDesign(Design):
                 roller = remedies.roller_for_zone(self)
                 fix = "remove cam.rocker_radius"
                 if math.isfinite(roller):
-                    fix = f"take a roller of at most {safely_below(roller)} mm"
+                    fix = f"use a roller of at most {safely_below(roller)} mm"
             status: Status = "fail" if zone > limit else "pass"
             if status == "pass" and zone > _UNGUIDED:
                 status, note = (
@@ -1193,7 +1195,7 @@ class WideSwingDesign(Design):
             elif cam.sense > 0 and bottom < HUB * shaft * (1.0 - _ROUNDING):
                 status, recommended = "warn", (HUB - 1.0) * shaft
                 if bottom >= HUB * THINNEST * shaft:
-                    fix = f"take a shaft_radius of at most {safely_below(bottom / HUB)} mm"
+                    fix = f"use a shaft_radius of at most {safely_below(bottom / HUB)} mm"
             yield SHAFT_CLEARANCE.check(
                 status,
                 f"roller of the {words} to the cam shaft",
@@ -1244,7 +1246,7 @@ class WideSwingDesign(Design):
         if beyond > 0.0:
             what, fix = "the roller is pushed off its cam near mid-swing", remedies.side_words(self.spec.slider)
         else:
-            what, fix = "balancing force and roller contact reverse together", ""
+            what, fix = "balancing force and roller contact change sides together", ""
         status: Status = "fail" if beyond > 0.0 else "pass"
         yield SIDE_CHANGE.check(status, what, beyond, 0.0, shown=NO_NUMBER, aside=aside, fix=fix)
 
@@ -1274,12 +1276,12 @@ class WideSwingDesign(Design):
             if cut.depth > _CUT * cam.cam.roller_radius:
                 what = f"cut of the roller into the contour of the {words}"
                 at = f"cam angle {short(math.degrees(cut.cam_angle))} deg"
-                fix, shown = "take a smaller cam.roller_radius", Shown(cut.depth, 0.0, "mm", "<=")
+                fix, shown = "use a smaller cam.roller_radius", Shown(cut.depth, 0.0, "mm", "<=")
                 yield CLOSED_CONTOUR.check("fail", what, -cut.depth, 0.0, "mm", shown=shown, at=at, fix=fix)
             elif clearance >= cam.largest_clearance:
                 most = cam.largest_clearance
                 what = f"clearance of the roller in the free sector of the {words}"
-                fix, shown = "take a smaller cam.roller_radius", NO_NUMBER
+                fix, shown = "use a smaller cam.roller_radius", NO_NUMBER
                 if most > 0.0:
                     fix, shown = (
                         f"set cam.free_clearance below {safely_below(most)} mm",

@@ -195,7 +195,7 @@ class ElasticLaw:
     @cached_property
     def clock(self) -> CosineSeries:
         """gamma sqrt(N) dk/dz as a cosine series over half the stroke."""
-        refusal = "the law of motion reverses too sharply at mid-swing\nraise unloader.pivot_ratio, or reduce swing"
+        refusal = "the motion law reverses too sharply at mid-swing\nincrease unloader.pivot_ratio, or reduce swing"
         with at_key("unloader.pivot_ratio"):
             return cosine_series(self._integrand, complete_integral(self.modulus_complement), refusal)
 
@@ -398,9 +398,9 @@ class ElasticLaw:
         if found is not None:
             return found
         raise NoSolution(
-            "the law of motion reverses too sharply for its positions to be resolved",
+            "the motion law reverses too sharply for its positions to be resolved",
             key="unloader.pivot_ratio",
-            fix="raise the pivot ratio, or reduce the swing",
+            fix="increase the pivot ratio, or reduce the swing",
         )
 
     @cached_property

@@ -633,7 +633,7 @@ class WideSwingLoads(LoadsDesign):
         has |= dict.fromkeys(("crank", "coupler"), spec.drive is not None)
         for name, given in self.section.links:
             if given is not None and not has.get(name, True):
-                raise NoSolution(f"this mechanism has no {name}", key=f"loads.links.{name}", fix="leave its mass out")
+                raise NoSolution(f"this mechanism has no {name}", key=f"loads.links.{name}", fix="omit its mass")
         return tuple(name for name in self.links if has.get(name, True))
 
     @property
@@ -688,7 +688,7 @@ class WideSwingLoads(LoadsDesign):
             if given and not has:
                 raise NoSolution(f"this mechanism has no {name}", key=f"loads.{key}", fix=f"omit {key}")
             if has and not given and any(self.section.gravity):
-                words = f"the weight depends on which way the {name} stands"
+                words = f"the weight depends on the direction of the {name}"
                 raise MissingSection(words, key="loads.gravity", fix=f"give loads.{key}")
 
     def _require_hanging(self, gravity: complex) -> None:
@@ -820,10 +820,8 @@ class WideSwingLoads(LoadsDesign):
         """Harmonics of the rocker's motion over a whole revolution."""
         if not self.whole:
             if self.spec.slider is not None:
-                raise NoSolution(
-                    "harmonics are those of a whole revolution, and here the stroke alone is known", key="loads"
-                )
-            message = "harmonics are those of a whole revolution"
+                raise NoSolution("harmonics need a whole revolution, but only the stroke is known here", key="loads")
+            message = "harmonics need a whole revolution"
             raise MissingSection(message, key="cycle_angle", fix="give cycle instead of cycle_angle")
         return tables.harmonics(self, samples)
 
@@ -855,7 +853,7 @@ class WideSwingLoads(LoadsDesign):
             return
         least = self.least_contact_force
         status = "fail" if least < 0.0 else "pass"
-        what, overlap = "minimum contact force of the roller", "contact force lacking: the roller leaves its cam"
+        what, overlap = "minimum contact force of the roller", "missing contact force: the roller leaves its cam"
         yield codes.CONTACT_LOSS.check(status, what, least, 0.0, "N", overlap=overlap, fix=fix)
 
     check_resonance, check_body_clearance = resonance_of_loads, bodies.placed_clearance

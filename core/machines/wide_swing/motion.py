@@ -140,7 +140,7 @@ class Motion:
     @property
     def _slider_section(self) -> SwingSlider:
         if self.spec.slider is None:
-            raise MissingSection("this needs the section slider: crank, rod, middle_angle, mass", key="slider")
+            raise MissingSection("the command needs the section slider: crank, rod, middle_angle, mass", key="slider")
         return self.spec.slider
 
     def _inertia_with(self, inertia: float, stroke: float) -> tuple[float, float]:
@@ -263,7 +263,7 @@ class Motion:
         """The crank-rocker that carries the cam; its refusal names the length to change."""
         section = self.spec.drive
         if section is None:
-            raise MissingSection("this needs the section drive: crank, coupler, rocker, frame", key="drive")
+            raise MissingSection("the command needs the section drive: crank, coupler, rocker, frame", key="drive")
         try:
             with at_key("drive"):
                 linkage = FourBar(section.crank, section.coupler, section.rocker, section.frame, section.assembly)
@@ -298,7 +298,7 @@ class Motion:
     def cycle_angles(self) -> tuple[float, float, float, float]:
         """Working stroke, far dwell, return stroke, near dwell [rad]."""
         if self.spec.cycle is None:
-            words = "this needs the section cycle: working, far_dwell, return, near_dwell"
+            words = "the command needs the section cycle: working, far_dwell, return, near_dwell"
             raise MissingSection(words, key="cycle")
         working, far, back, near = (math.radians(length) for length in self.spec.cycle.lengths)
         return working, far, back, near

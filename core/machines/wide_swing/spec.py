@@ -52,7 +52,7 @@ class Pneumatic(Spec):
     """A cylinder under constant pressure."""
 
     type: Literal["pneumatic"] = Field(description="kind of device")
-    pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm; must be above 1")
     arm: Length = Field(description="arm r_d on the rocker")
     extension_ratio: Annotated[float, unit("1", gt=1, lt=2)] = Field(
         13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
@@ -62,7 +62,7 @@ class Pneumatic(Spec):
         None, description="gauge pressure, 0.6 for 6 bar; sizes the bore"
     )
     bore: Length | None = Field(None, description="bore of a given cylinder, instead of pressure")
-    rod_diameter: Distance = Field(0.0, description="of the rod; the cylinder pulls, with the side of its rod")
+    rod_diameter: Distance = Field(0.0, description="diameter of the rod; the cylinder pulls, with the rod side")
     efficiency: Annotated[float, unit("1", gt=0, le=1)] = Field(
         1.0, description="share of the cylinder's force that reaches the pin"
     )
@@ -96,18 +96,16 @@ class SpringDevice(Spec):
     """A tension spring."""
 
     type: Literal["spring"] = Field(description="kind of device")
-    pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm; must be above 1")
     arm: Length = Field(description="arm r_d on the rocker")
     rate: Annotated[float, unit("N/mm", gt=0)] | None = Field(
         None, description="rate of a given spring, instead of reserve"
     )
-    free_length: Length | None = Field(
-        None, description="between the pins where the force is zero, instead of stretch_ratio"
-    )
+    free_length: Length | None = Field(None, description="distance of the pins at zero force, instead of stretch_ratio")
     stretch_ratio: Share | None = Field(
         None, validate_default=True, description="mounting stretch at mid-swing over the stroke; or free_length"
     )
-    closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
+    closed_length: Length | None = Field(None, description="closed-coil length; with it the pivot ratio is checked")
     stretch_capacity: Ratio | None = Field(
         None, description="allowable stretch over closed length, instead of closed_length; steel 1 to 2"
     )
@@ -150,8 +148,10 @@ class GravityDevice(Spec):
     """A mass that hangs from the rocker axis and stands lowest at mid-swing."""
 
     type: Literal["gravity"] = Field(description="kind of device")
-    distance: Length = Field(description="of the mass from the rocker axis")
-    mass: Mass | None = Field(None, description="of a given pendulum, instead of reserve; counted in its own inertia")
+    distance: Length = Field(description="distance of the mass from the rocker axis")
+    mass: Mass | None = Field(
+        None, description="mass of a given pendulum, instead of reserve; its own inertia is included"
+    )
     gravity: Annotated[float, unit("m/s^2", gt=0)] = Field(9.80665, description="acceleration of gravity")
     residual: Residual = 0.0
     reserve: Reserve = 0.0
@@ -197,10 +197,10 @@ class SwingCam(Spec):
         "separate", description="of the two cams of a twin-cam-parallel: next to each other, or in one plane"
     )
     roller_clearance: Distance | None = Field(
-        None, description="clearance of the roller in its slot, both flanks together; then the blow at mid-swing"
+        None, description="total clearance of the roller in its slot; with it the impact at mid-swing is computed"
     )
     contact_stiffness: Annotated[float, unit("N/mm", gt=0)] | None = Field(
-        None, description="of roller and flank; then the force of the blow"
+        None, description="stiffness of roller and flank; with it the force of the impact is computed"
     )
 
 
@@ -259,11 +259,12 @@ class SwingShaft(Spec):
     """The drive of the cam shaft; with it go the dynamic coefficient and the torque of the cam shaft."""
 
     natural_frequency: Annotated[float, unit("Hz", gt=0)] = Field(
-        description="natural frequency of the drive in torsion, in cycles a second"
+        description="natural frequency of the drive in torsion, in Hz"
     )
     damping: Annotated[float, unit("1", ge=0, lt=1)] = Field(0.0, description="damping ratio of the drive")
     linkage_share: Share = Field(
-        0.0, description="torque of the links that the device does not unload, share of the rocker's inertia torque"
+        0.0,
+        description="torque of the links that the device does not balance, as a share of the rocker's inertia torque",
     )
 
 
@@ -286,7 +287,7 @@ def _fixed_stroke(stroke: str) -> str:
 class SwingDrive(Spec):
     """A crank-rocker whose rocker carries the cam."""
 
-    crank: Length = Field(description="crank, turning evenly at `speed`")
+    crank: Length = Field(description="crank, turning at constant `speed`")
     coupler: Length = Field(description="coupler")
     rocker: Length = Field(description="rocker that carries the cam")
     frame: Length = Field(description="distance of the two pivots")
@@ -308,7 +309,7 @@ class SwingLimits(LoadLimits):
     )
     cam_gap: Distance = Field(0.0, description="minimum clearance of cams on parallel shafts")
     impact_speed: Annotated[float, unit("mm/s", gt=0)] | None = Field(
-        None, description="maximum speed of the roller's blow where it changes flanks; default: not checked"
+        None, description="maximum impact speed of the roller where it changes flanks; default: not checked"
     )
 
 
@@ -331,19 +332,21 @@ class WideSwingSpec(TolerancedSpec):
     )
     unloader: Pneumatic | SpringDevice | GravityDevice = Field(
         discriminator="type",
-        description="device that bears the inertia",
+        description="device that balances the inertia",
         json_schema_extra=also("balancing_device"),
     )
     output_radius: Length | None = Field(
-        None, description="radius on the rocker at which its end positions count; then their gain"
+        None, description="radius on the rocker at which the error of its end positions is computed"
     )
     operating_speed_min: Annotated[float, unit("1/min", gt=0)] | None = Field(
-        None, description="minimum speed at which the machine works; then the device is checked for harm there"
+        None, description="minimum operating speed, at which the device is checked for increased torque"
     )
     method: Literal["exact", "iteration"] = Field(
         "exact", description="iteration: show the source's own iteration and its error against the exact law"
     )
-    iteration_steps: Annotated[int, unit("1", ge=1, le=100_000)] = Field(20, description="its steps per half stroke")
+    iteration_steps: Annotated[int, unit("1", ge=1, le=100_000)] = Field(
+        20, description="steps of the iteration per half stroke"
+    )
     cam: SwingCam | None = None
     gears: ShaftGears | None = None
     slider: SwingSlider | None = None
@@ -385,12 +388,12 @@ class WideSwingSpec(TolerancedSpec):
             raise refused(f"the key 'second' is missing\n{words}", "cam.second", "GL106")
         if not parallel and self.cam is not None and self.cam.second is not None:
             raise refused(
-                "a second shaft belongs to layout: twin-cam-parallel\nremove cam.second, or give that layout",
+                "cam.second applies only to layout: twin-cam-parallel\nremove it, or set that layout",
                 "cam.second",
             )
         if not parallel and self.gears is not None:
             raise refused(
-                "gears between the shafts belong to layout: twin-cam-parallel\nremove gears, or give that layout",
+                "gears apply only to layout: twin-cam-parallel\nremove them, or set that layout",
                 "gears",
             )
         if parallel and self.gears is not None and self.cam is None:
@@ -402,23 +405,27 @@ class WideSwingSpec(TolerancedSpec):
                 "the cam of a rocker with a slider has an external profile: layout must be twin-cam", "layout"
             )
         if self.cycle is not None:
-            raise refused("a cycle is that of a rocker without a slider\ngive cycle_angle", "cycle")
+            raise refused("cycle applies only to a rocker without a slider\ngive cycle_angle", "cycle")
         if cam.rocker_radius is not None:
-            raise refused("the law of a slider gives the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius")
+            raise refused(
+                "the law of a slider determines the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius"
+            )
 
     def _agree_with_drive(self) -> None:
         if self.cycle is not None:
-            raise refused("the drive's dead centres give the crank angles of both strokes\nomit cycle", "cycle")
+            raise refused(
+                "the dead centres of the drive determine the crank angles of both strokes\nomit cycle", "cycle"
+            )
         if self.cycle_angle is not None:
             raise refused(
-                "the drive's dead centres give the crank angle of the stroke\nomit cycle_angle", "cycle_angle"
+                "the dead centres of the drive determine the crank angle of the stroke\nomit cycle_angle", "cycle_angle"
             )
         if self.cam is None:
             raise refused("a drive needs the section cam: center_distance, roller_radius", "cam", "GL106")
         if self.layout != "twin-cam":
             raise refused("an oscillating cam has an external profile: layout must be twin-cam", "layout")
         if self.cam.rocker_radius is not None:
-            raise refused("the drive gives the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius")
+            raise refused("the drive determines the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius")
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -206,7 +206,7 @@ class Unloading:
     @property
     def _shaft(self) -> SwingShaft:
         if self.spec.shaft is None:
-            raise MissingSection("this needs the section shaft: natural_frequency, damping", key="shaft")
+            raise MissingSection("the command needs the section shaft: natural_frequency, damping", key="shaft")
         return self.spec.shaft
 
     @property

@@ -93,7 +93,7 @@ def undercut_checks(
             most = ROLLER_SHARE * least.value
             if profile_stays:  # r <= q (rho + r) of its radius rho
                 most = ROLLER_SHARE / (1.0 - ROLLER_SHARE) * (least.value - roller)
-            fix = f"take a roller of at most {safely_below(most)} mm"
+            fix = f"use a roller of at most {safely_below(most)} mm"
             if most <= 0.0:
                 fix = larger() if larger else plainly
         shown = against_curvature(roller, least.value, status)
@@ -172,14 +172,14 @@ def hub_checks(
         status: Status = "fail" if room <= 0.0 else "warn" if thin else "pass"
         fix = farther(HUB * shaft - cam.min_radius) if status != "pass" else ""
         if status == "warn" and cam.min_radius >= HUB * THINNEST * shaft:
-            fix = f"take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm"
+            fix = f"use a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm"
         yield rule.check(
             status,
-            f"{cam.name} to its shaft",
+            f"distance of the {cam.name} from its shaft",
             room,
             0.0,
             "mm",
-            overlap=f"{cam.name} within its shaft",
+            overlap=f"overlap of the {cam.name} and its shaft",
             recommended=(HUB - 1.0) * shaft,
             aside=f"shaft radius {short(shaft)} mm",
             fix=fix,

@@ -9,11 +9,11 @@ LARGER = "enlarge the base circle"
 PRESSURE_ANGLE = Rule(
     "GL401",
     "pressure angle too large",
-    "The angle between the follower's motion and the common normal at the contact exceeds limits.pressure_angle, or no "
-    "cam can make the motion at all (no value is given then).",
-    "The cam pushes aside instead of along: high side forces, wear, and in the end jamming.",
-    "Enlarge the base circle, give the motion more cam angle, or move the cam centre; for a translating follower "
-    "30 deg is usual, for a rocking one 45 deg.",
+    "The angle between the follower's motion and the common normal at the contact exceeds limits.pressure_angle, or "
+    "no cam can make the motion (then no value is given).",
+    "The cam pushes the follower sideways instead of along its path: high side forces, wear and finally jamming.",
+    "Enlarge the base circle, give the motion more cam angle, or move the cam centre; for a translating follower 30 "
+    "deg is usual, for an oscillating one 45 deg.",
     "tan(alpha) = Im(q/u)/Re(q/u), q = i B' + eps B (B roller centre, u its direction of motion); wide-swing: "
     "tan(delta) = (lambda A - cos phi)/sin phi",
     "VDI 2142; wide-swing dissertation, chapter 3",
@@ -25,12 +25,13 @@ CAM_UNDERCUT = Rule(
     "GL402",
     "roller undercuts the cam",
     "The roller is as large as the minimum convex curvature radius of the pitch curve, or cuts into the profile "
-    "elsewhere. The profile under a flat face is undercut where its curvature radius is not positive, or its velocity "
-    "steps down; that under a knife edge never is. Below limits.curvature_radius both are warned of.",
-    "The cutter removes part of the profile: the follower does not make the required motion. The tables show "
-    "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
-    "Take a roller below 0.8 of the minimum curvature radius, or enlarge the base circle. No size helps where the "
-    "velocity of the lift jumps: remove its step (GL403).",
+    "elsewhere. The profile for a flat face is undercut where its curvature radius is not positive or the velocity "
+    "of the lift steps down; that for a knife edge never is. For both, a radius below limits.curvature_radius is a "
+    "warning.",
+    "The cutter removes part of the profile, and the follower does not make the required motion. The tables show the "
+    "envelope with its loop; the profile that is cut lies between the smallest and the largest radius.",
+    "Use a roller radius below 0.8 of the minimum curvature radius, or enlarge the base circle. Where the velocity of "
+    "the lift jumps no size helps: remove the jump (GL403).",
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
     "VDI 2142; own derivation of the cut elsewhere",
     ("cam-undercut",),
@@ -41,8 +42,8 @@ VELOCITY_STEP = Rule(
     "GL403",
     "velocity of the lift jumps",
     "At a joint of the law the first derivative of the lift has a step.",
-    "The acceleration would be infinite there: a blow, at any speed.",
-    "Choose laws whose end velocities agree; in a press let the zone start where bed and cylinder are equally fast.",
+    "The acceleration would be infinite there: an impact at any speed.",
+    "Choose laws whose end velocities agree; in a press start the zone where bed and cylinder have the same speed.",
     "|s'(t+) - s'(t-)| <= 1e-5 of the largest |s'|",
     "VDI 2143",
     ("velocity-step",),
@@ -54,7 +55,8 @@ ACCELERATION_STEP = Rule(
     "acceleration of the lift jumps",
     "At a joint of the law the second derivative of the lift has a step (a warning).",
     "The force on the follower jumps: vibration and noise at high speed, and the roller may lift off.",
-    "Choose laws without end acceleration; in a press a lead_in, transition quartic and return_law cycloidal.",
+    "Choose laws with zero acceleration at the ends; in a press set lead_in, transition: quartic and return_law: "
+    "cycloidal.",
     "|s''(t+) - s''(t-)| <= 1e-5 of the largest |s''|",
     "VDI 2143",
     ("acceleration-step",),
@@ -67,7 +69,7 @@ JERK_STEP = Rule(
     "At a joint of the law the third derivative of the motion has a step larger than limits.jerk_step (a warning; "
     "without that key it is only reported).",
     "A step of the jerk excites vibration at high speed, though far less than a step of the acceleration.",
-    "Take laws that end without jerk: polynomial-4567, velocity-4567 or {septic: 0.5}.",
+    "Choose laws with zero jerk at the ends: polynomial-4567, velocity-4567 or {septic: 0.5}.",
     "|s'''(t+) - s'''(t-)| <= limits.jerk_step",
     "VDI 2143",
     ("jerk-step",),
@@ -76,10 +78,10 @@ JERK_STEP = Rule(
 )
 CONSTANT_SUM = Rule(
     "GL405",
-    "rollers of the cam pair do not keep their distance",
+    "distance of the rollers of the cam pair not constant",
     "The pitch radii of main and return cam at opposite rollers do not add up to the distance of the rollers.",
     "The rigid follower would jam or have play.",
-    "Raise cam.base_radius so that both rollers stay on their own side of the cam axis.",
+    "Increase cam.base_radius so that each roller stays on its own side of the cam axis.",
     "r1(t) + r2(t) = L_s1s2 within 1e-9 of it, at every degree of cam angle",
     "TY-460 report 3.6",
     ("constant-sum",),
@@ -89,13 +91,13 @@ CONSTANT_SUM = Rule(
 LIFT_OFF = Rule(
     "GL406",
     "lift-off of the roller",
-    "At the design speed the inertia of the follower exceeds the force of the spring, or the speed margin is below a "
-    "tenth. No value is given where nothing presses both rollers of a pair to their cams: both lie on one side of the "
-    "cam, or the spring pushes. A warning for a pair without `spring`: each roller has a rocker of its own, and only a "
-    "spring between them presses both.",
+    "At the design speed the inertia force of the follower exceeds the spring force, or the speed margin is below 10 "
+    "%. No value is given where nothing presses both rollers of a pair to their cams: both lie on one side of the "
+    "cam, or the spring pushes them off. A pair without `spring` is a warning: each roller has a rocker of its own, "
+    "and only a spring between the rockers presses both.",
     "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
-    "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
-    "past the cam axis.",
+    "Increase spring.torque to the value in the message, or reduce the masses or the speed; turn "
+    "cam.return_roller.angle past the cam axis.",
     "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
     "own derivation: virtual work of links and coupler",
     ("lift-off",),
@@ -104,9 +106,10 @@ LIFT_OFF = Rule(
 LAW_GAP = Rule(
     "GL517",
     "optimal law not proved to be the minimum",
-    "The gap between the law that was found and the bound below which no law of its degree lies is wide.",
-    "The proof says how much a better law could gain; a wide gap says that the programme was solved badly.",
-    "Lower the degree, or loosen a limit that hardly can be kept.",
+    "The law that was found is far above the lower bound that holds for every law of its degree.",
+    "The bound shows how much a better law could gain; a wide gap means that the linear programme was solved "
+    "inaccurately.",
+    "Reduce the degree, or relax a limit that can hardly be met.",
     "value/lower_bound - 1 <= 1e-3",
     "weak duality of linear programmes",
     ("law-gap",),
@@ -117,8 +120,8 @@ LAW_RIPPLE = Rule(
     "GL422",
     "law of a table reverses",
     "The curve through the points of a table from rest to rest runs backwards somewhere (a warning).",
-    "Measured or rounded points ripple; each revolution back is a blow in the drive's play.",
-    "Give more digits, smooth the points, or omit some: the spline passes through every one.",
+    "Measured or rounded points ripple; each reversal is an impact in the play of the drive.",
+    "Give more digits, smooth the points, or omit some: the spline passes through every point.",
     "minimum velocity of the law >= 0",
     "own derivation",
     ("law-ripple",),
@@ -127,10 +130,10 @@ LAW_RIPPLE = Rule(
 POLYDYNE_RANGE = Rule(
     "GL518",
     "a polydyne law of less than one natural period",
-    "The phase takes less than one natural period of what the law moves.",
-    "The peak acceleration of a polydyne law grows as 1/lambda^2, and the law is hardly useful away from its "
-    "own speed.",
-    "Give the phase more time, make what vibrates stiffer, or take an optimal law over a band.",
+    "The phase is shorter than one natural period of the driven system.",
+    "The peak acceleration of a polydyne law grows as 1/lambda^2, and the law is hardly useful away from its design "
+    "speed.",
+    "Give the phase more time, stiffen the vibrating part, or use an optimal law over a band of speeds.",
     "lambda = f T >= 1",
     "own derivation",
     ("polydyne-range",),
@@ -143,7 +146,7 @@ FACE_LENGTH = Rule(
     "contact leaves the flat face",
     "The contact of cam and flat face runs beyond the reach of the face (follower.face).",
     "An edge of the face would touch the cam: it digs in, and the follower no longer makes its motion.",
-    "Make the face longer to that side, or give the motion more cam angle: the contact stands off by s'.",
+    "Lengthen the face on that side, or give the motion more cam angle: the contact moves along the face by s'.",
     "eps s' within [-left, right] of the line of travel; oscillating: f cos Psi/(1 + sigma s') within [from, to]",
     "own derivation: the normal passes the relative pole",
     ("face-length",),
@@ -155,8 +158,8 @@ OUTER_WALL = Rule(
     "roller undercuts the outer wall of the groove",
     "The roller is as large as the minimum concave radius of the pitch curve: the outer wall of the groove is "
     "cut away.",
-    "The roller has no guidance there, and strikes.",
-    "Take a smaller roller, or enlarge the cam.",
+    "There the roller is not guided, and strikes the wall.",
+    "Use a smaller roller, or enlarge the cam.",
     "r_g < 1/max(-kappa), kappa of the pitch curve",
     "VDI 2142",
     ("outer-wall",),
@@ -168,7 +171,7 @@ CUTTER_RADIUS = Rule(
     "cutter too large for a concave flank",
     "The cutter (cam.cutter_radius) is as large as the minimum concave radius of the profile.",
     "It cannot reach into the concave part: it leaves material, and the follower is lifted there.",
-    "Take a smaller cutter or grinding wheel, or enlarge the cam.",
+    "Use a smaller cutter or grinding wheel, or enlarge the cam.",
     "r_c < 1/max(-kappa) + r_g, kappa of the pitch curve; r_c < r_g at its concave corner, where the velocity jumps",
     "VDI 2142",
     ("cutter-radius",),

@@ -365,7 +365,7 @@ def _under_face(found: Contour) -> _Course:
         joint, middle, flank, back = 0.0, found.base, nose, nose
     elif not 0.0 < found.flank < math.inf:
         words = "straight" if found.flank > 0.0 else f"concave ({short(found.flank)} mm)"
-        raise NoSolution(f"a flat face needs convex flanks, these are {words}", key="profile", fix="take a roller")
+        raise NoSolution(f"a flat face needs convex flanks, these are {words}", key="profile", fix="use a roller")
     else:
         joint, flank = cmath.phase(found.joint_normal), _Face(found.flank_center, found.flank)
         middle, back = float(nose.height(np.array(joint), 0)[0]), flank._replace(center=_beyond(found, 0.0))
@@ -395,7 +395,7 @@ def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
     if found.flank < 0.0 and reach >= -found.flank:
         limit = -found.flank
         message = f"roller_radius: {unlike(reach, limit)} mm (limit < {unlike(limit, reach)} mm, the concave flank)"
-        raise NoSolution(message, key="follower.roller_radius", fix=f"take a roller below {short(limit)} mm")
+        raise NoSolution(message, key="follower.roller_radius", fix=f"use a roller below {short(limit)} mm")
     meeting = found.nose_center + (found.nose + reach) * found.joint_normal
     (rise, middle), (fall, _) = (
         passed(abs(meeting), direction) for direction in (cmath.phase(meeting), whole - cmath.phase(meeting))
@@ -404,7 +404,7 @@ def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
     if min(math.cos(lead + normal - rise), math.cos(lead + whole - normal - fall)) <= 0.0:
         # the tangents of a convex cam pass its axis farther than the line of travel does
         message = "the pressure angle reaches 90 deg on a concave flank: the follower jams"
-        fix = "lower the amount of follower.offset, or raise that of profile.flank_radius"
+        fix = "reduce the magnitude of follower.offset, or increase that of profile.flank_radius"
         raise NoSolution(message, key="profile", fix=fix)
     flank: _Circle | _Line = _Line(lead, prime, offset)
     back: _Circle | _Line = _Line(lead + whole, prime, offset)

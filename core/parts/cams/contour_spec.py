@@ -19,7 +19,7 @@ class _Lobe(Spec):
     base_radius: Length = Field(description="radius of the base circle")
     nose_radius: Length | None = Field(None, description="radius of the nose")
     nose_distance: Length | None = Field(None, description="cam axis to the centre of the nose")
-    lift: Length | None = Field(None, description="by how much the nose stands out of the base circle")
+    lift: Length | None = Field(None, description="height of the nose above the base circle")
     action_angle: ActionAngle | None = Field(
         None,
         description="from the start of the rise to the end of the return: twice the angle of ascent",
@@ -38,7 +38,7 @@ class _Lobe(Spec):
             count = {2: "two", 3: "three"}[self.wanted]
             missing = len(given) < self.wanted
             message = f"sizes of the profile: {len(given)} of {names} (required {self.wanted})"
-            message += f"\n{'give' if missing else 'keep'} {count} of them, the others follow"
+            message += f"\n{'give' if missing else 'keep'} {count} of them; the other sizes follow"
             raise refused(message, "type" if missing else given[-1])
         return self
 
@@ -66,7 +66,7 @@ class CircularArcProfile(_Lobe):
     @model_validator(mode="after")
     def _of_flanks(self) -> Self:
         if set(self.given()) == {"nose_radius", "nose_distance", "lift"}:
-            message = "nose_radius, nose_distance and lift tell nothing of the flanks: two of them give the third"
+            message = "nose_radius, nose_distance and lift do not determine the flanks: two of them give the third"
             raise refused(f"{message}\ngive action_angle or flank_radius instead of lift", "lift")
         return self
 
@@ -74,13 +74,13 @@ class CircularArcProfile(_Lobe):
     def _of_action(self) -> Self:
         if self.flank_angle is not None:
             if self.action_angle is None:
-                raise refused("flank_angle goes with action_angle\ngive action_angle", "flank_angle")
+                raise refused("flank_angle needs action_angle\ngive action_angle", "flank_angle")
             if self.flank_angle >= 0.5 * self.action_angle:
                 most = 0.5 * self.action_angle
                 message = f"flank_angle: {self.flank_angle:g} deg (limit < {most:g} deg, half the action_angle)"
                 raise refused(f"{message}\nset profile.flank_angle below {most:g} deg", "flank_angle")
         if self.flank_radius == 0.0:
-            raise refused("flank_radius: 0 mm (any other)\nfor straight flanks set type: tangent", "flank_radius")
+            raise refused("flank_radius: 0 mm (must not be 0)\nfor straight flanks set type: tangent", "flank_radius")
         return self
 
 

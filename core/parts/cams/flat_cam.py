@@ -86,7 +86,7 @@ def rocking_face(
         relative = 1.0 + sigma * s1
         if not np.all(relative > 0.0):
             place = math.degrees(float(np.atleast_1d(phi)[int(np.argmin(relative))]))
-            message = f"at cam angle {place:.5g} deg the follower overtakes the cam"
+            message = f"at cam angle {place:.5g} deg the follower moves faster than the cam"
             raise NoSolution(message, key="motion", fix="give its motion more cam angle")
         across, along = distance * np.sin(start + s), distance * np.cos(start + s)
         t = along / relative

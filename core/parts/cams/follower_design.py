@@ -183,7 +183,7 @@ class OfFollower(WithExtremes, WithShapedLaws):
         place, step = max(steps, key=lambda each: abs(each[1]))
         limit = self.spec.limits.jerk_step
         status: Status = "warn" if limit is not None and abs(step) > limit else "pass"
-        what, fix = "step of the lift's jerk", "take the law polynomial-4567"
+        what, fix = "step of the lift's jerk", "use the law polynomial-4567"
         return JERK_STEP.check(status, what, abs(step), limit, unit, at=place, fix=fix)
 
 

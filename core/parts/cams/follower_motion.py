@@ -307,7 +307,7 @@ def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any
             return replace(blank, name=name, shape=shape, joints=joints, ends=ends)
         shape = _normalised(one) if one.kind == "given-ends" else _plain(one)
     if segment.mirrored:
-        raise NoSolution(f"mirrored goes with a law from rest to speed; {name} runs from rest to rest")
+        raise NoSolution(f"mirrored applies only to a law from rest to speed; {name} runs from rest to rest")
     _, v, a = shape(np.array([0.0, 1.0]), 2)
     first, last = ((slope * float(v[k]), slope / blank.width * float(a[k])) for k in (0, 1))
     return replace(blank, name=name, shape=shape, joints=joints, ends=(first, last))
@@ -364,7 +364,9 @@ def _facing(beside: Piece, end: str, key: str, unit: float) -> tuple[float, floa
     given = None if beside.waits is None else getattr(beside.waits.law, end)
     if beside.coefficients or given == "join":
         raise NoSolution(
-            f"{key}: join takes the values of a neighbour that has its own", key=key, fix="give it a law, or them"
+            f"{key}: join uses the end values of a neighbouring segment that has its own",
+            key=key,
+            fix="give the neighbour a law, or end values",
         )
     if given is None:
         return beside.ends[("start", "end").index(end)]
@@ -416,7 +418,7 @@ def _resting(definition: Any) -> Law:
         raise NoSolution("a law is a name, or a mapping with its numbers")
     one = law(definition)
     if one.kind != "rest-to-rest":
-        raise NoSolution(f"{one.name} runs from rest to speed", fix="take a law from rest to rest")
+        raise NoSolution(f"{one.name} runs from rest to speed", fix="use a law from rest to rest")
     return one
 
 
@@ -440,7 +442,9 @@ def _shifted(definition: Any, inflection: Any) -> tuple[Shape, tuple[float, ...]
     m = _number(inflection, 0.05, 0.95, "inflection")
     bend = float(one.derivatives(np.array([0.5]), 2, 2)[0][0])
     if abs(bend) > 1e-9 * one.peak_acceleration:
-        raise NoSolution(f"the acceleration of {one.name} is not zero in the middle: its inflection cannot be shifted")
+        raise NoSolution(
+            f"the acceleration of {one.name} is not zero in the middle: its inflection point cannot be shifted"
+        )
 
     def half(x: Reals, order: int, share: float) -> list[Reals]:
         found = one.derivatives(np.clip(x / (2.0 * share), 0.0, 0.5), 0, order)
@@ -460,7 +464,7 @@ def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: floa
     """The last rise backwards over a width."""
     last = next((k for k in reversed(range(len(pieces))) if pieces[k].high > pieces[k].low), None)
     if last is None:
-        raise NoSolution(f"segment {number} repeats the last rise backwards, and there is none", key="motion")
+        raise NoSolution(f"segment {number} repeats the last rise backwards, but there is none", key="motion")
     first = last
     while first > 0 and pieces[first - 1].high > pieces[first - 1].low:
         first -= 1

@@ -157,7 +157,7 @@ def _checked_shares(a: float, b: float, c: float, d: float) -> tuple[float, floa
     if not abs(total - 1.0) <= 1e-9:
         raise NoSolution(
             f"scca shares {list(shares)} have the sum {unlike(total, 1.0)} (required 1)",
-            fix=f"change one by {1.0 - total:+.9g}",
+            fix=f"change one of them by {1.0 - total:+.9g}",
         )
     if d >= 1.0:
         raise NoSolution("scca share d = 1 leaves no time to accelerate", fix="keep d below 1 (0.2 to 0.5 is usual)")

@@ -19,28 +19,34 @@ class Segment(Spec):
     """A stretch of the cam angle with one law of motion; it begins where the one before ends."""
 
     to: Annotated[float, unit("deg", gt=0, le=360)] = Field(
-        description="cam angle at which it ends; that of the last segment is 360"
+        description="cam angle at the end of the segment; of the last one 360"
     )
-    lift: Lift | None = Field(None, description="lift at its end (oscillating follower: deg); default: a dwell")
+    lift: Lift | None = Field(
+        None, description="lift at the end of the segment (oscillating follower: deg); default: a dwell"
+    )
     law: SegmentLaw | None = Field(None, description="law of motion; default: modified-sine, or a dwell")
     mirrored: bool = Field(False, description="run a law from rest to speed backwards: from speed to rest")
     return_: Literal["mirrored"] | None = Field(
         None, alias="return", description="mirrored: the last rise backwards over this segment"
     )
-    end_velocity: Lift | None = Field(None, description="of a polynomial: velocity at its end, lift per rad")
-    end_acceleration: Lift | None = Field(None, description="of a polynomial: acceleration at its end, lift per rad^2")
+    end_velocity: Lift | None = Field(
+        None, description="of a polynomial: velocity at the end of the segment, lift per rad"
+    )
+    end_acceleration: Lift | None = Field(
+        None, description="of a polynomial: acceleration at the end of the segment, lift per rad^2"
+    )
 
     @model_validator(mode="after")
     def _one_meaning(self) -> Self:
         if self.return_ is not None:
             for key in ("lift", "law"):
                 if getattr(self, key) is not None:
-                    message = "return: mirrored takes lift and law from the rise\nomit them"
+                    message = "return: mirrored uses lift and law of the rise\nomit them"
                     raise refused(message, key)
         if self.law != "polynomial":
             for key in ("end_velocity", "end_acceleration"):
                 if getattr(self, key) is not None:
-                    raise refused("only law: polynomial takes end values", key)
+                    raise refused("end values apply only to law: polynomial", key)
         return self
 
 
@@ -55,7 +61,7 @@ class FromFile(Spec):
     columns: Annotated[list[Column], Field(min_length=2, max_length=2), Entries("[angle, value]", "[1, 2]")] | None = (
         Field(None, description="of a file: numbers of the two columns; default: the first two")
     )
-    degrees: bool = Field(True, description="of a file: whether its angles are in deg; false: in rad")
+    degrees: bool = Field(True, description="of a file: true if its angles are in deg, false if in rad")
 
     @property
     def rows(self) -> list[list[float]]:

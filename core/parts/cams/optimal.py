@@ -325,7 +325,7 @@ class Programme:
             if excess <= 0.0:
                 return coefficients, solved
             slack += 2.0 * excess
-        raise NoSolution("the programme of the law does not settle", key="degree", fix="lower the degree")
+        raise NoSolution("the linear programme of the law does not converge", key="degree", fix="reduce the degree")
 
     @property
     def limits(self) -> list[tuple[str, float]]:

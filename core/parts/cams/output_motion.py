@@ -42,10 +42,10 @@ class OutputSegment(Spec):
     """A stretch of the input angle with one law; it begins where the one before ends."""
 
     to: Annotated[float, unit("deg", gt=0, le=360)] = Field(
-        description="input angle at which it ends; that of the last segment is 360"
+        description="input angle at the end of the segment; of the last one 360"
     )
     output: OutputAngle | None = Field(
-        None, description="output angle at its end, from 0 at input angle 0 on; default: a dwell"
+        None, description="output angle at the end of the segment, counted from 0 at input angle 0; default: a dwell"
     )
     law: SegmentLaw | None = Field(None, description="law of motion; default: modified-sine, or a dwell")
 

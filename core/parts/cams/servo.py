@@ -83,5 +83,5 @@ def rows_for(motion: FollowerMotion, tolerance: float) -> int:
             and greatest_error(motion, rows) <= tolerance
         ):
             return rows
-    message = f"no step of the table keeps {tolerance:g}, not even {STEPS[-1]:g} deg"
+    message = f"no step of the table meets the tolerance {tolerance:g}, not even {STEPS[-1]:g} deg"
     raise NoSolution(message, key="servo.tolerance", fix="raise the tolerance")

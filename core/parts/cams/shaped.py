@@ -197,11 +197,13 @@ def _end_values(model: Any, key: str, phase: Phase) -> list[float]:
         return list(given)
     if given == "join":
         raise NoSolution(
-            f"{key}", key=key, fix="join takes the values of a neighbour, which only a segment of a cam has"
+            f"{key}",
+            key=key,
+            fix="join uses the end values of a neighbouring segment, which only a segment of a cam has",
         )
     if phase.angle is None or not phase.rise:
         raise NoSolution(
-            f"{key}: speed and acceleration of a lift belong to a segment of a cam", key=key, fix="give [s, v, a]"
+            f"{key}: speed and acceleration of a lift apply only to a segment of a cam", key=key, fix="give [s, v, a]"
         )
     scale = phase.angle / phase.rise
     return [1.0 if key == "end" else 0.0, given.speed * scale, given.acceleration * scale * phase.angle]
@@ -211,7 +213,7 @@ def _polynomial(start: Sequence[float], end: Sequence[float]) -> Law:
     """The polynomial of degree 5, or 7 with the jerk, of given end values: unique."""
     m = len(start)
     if len(end) != m:
-        raise NoSolution("start and end have as many values each; what is joined has three, s, v, a", key="end")
+        raise NoSolution("start and end need the same number of values; a joined end has three, s, v, a", key="end")
     # powers by the Taylor series at 0, the rest by the values at 1
     powers = [Fraction(value) / math.factorial(k) for k, value in enumerate(start)]
     rows = [[Fraction(math.perm(p, k)) for p in range(m, 2 * m)] for k in range(m)]

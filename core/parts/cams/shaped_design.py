@@ -104,10 +104,10 @@ class WithShapedLaws:
             if optimum is None or (law.shaping and law.shaping.wish and law.shaping.wish.minimize == "torque"):
                 continue
             wide = optimum.gap > _MOST_GAP
-            what = f"{path}: gap of the optimum to its proved bound"
+            what = f"{path}: relative gap between the optimum and its proved lower bound"
             shown = Shown(100.0 * optimum.gap, 100.0 * _MOST_GAP, "%", "<=")
             aside, status = f"optimum {short(optimum.value)}", _status(wide)
-            yield LAW_GAP.check(status, what, optimum.gap, _MOST_GAP, shown=shown, aside=aside, fix="lower the degree")
+            yield LAW_GAP.check(status, what, optimum.gap, _MOST_GAP, shown=shown, aside=aside, fix="reduce the degree")
 
     def check_polydyne_range(self) -> Iterator[Check]:
         """GL518."""

@@ -31,7 +31,7 @@ End = Coefficients | Literal["join"] | EndInFile
 
 
 class _WithEnds(Spec):
-    type: Literal["polynomial", "harmonic"] = Field(description="how the law is shaped")
+    type: Literal["polynomial", "harmonic"] = Field(description="type of the law")
     start: End = Field(
         [0.0, 0.0, 0.0], description="s, v, a (, j) at x = 0; in a cam also join, or speed and acceleration"
     )
@@ -46,20 +46,20 @@ class _WithEnds(Spec):
 class PolynomialEnds(_WithEnds):
     """The polynomial of minimum degree with given end values: quintic, with the jerk septic."""
 
-    type: Literal["polynomial"] = Field(description="how the law is shaped")
+    type: Literal["polynomial"] = Field(description="type of the law")
 
     @model_validator(mode="after")
     def _alike(self) -> Self:
         start, end = self.start, self.end
         if isinstance(start, list) and isinstance(end, list) and len(start) != len(end):
-            raise refused("start and end have as many values each: 3, or 4 with the jerk", "end")
+            raise refused("start and end need the same number of values: 3, or 4 with the jerk", "end")
         return self
 
 
 class HarmonicEnds(_WithEnds):
     """Sum of 1, x, cos pi x, sin pi x, cos 2 pi x, sin 2 pi x with given end values."""
 
-    type: Literal["harmonic"] = Field(description="how the law is shaped")
+    type: Literal["harmonic"] = Field(description="type of the law")
 
     @model_validator(mode="after")
     def _three(self) -> Self:
@@ -72,18 +72,18 @@ class HarmonicEnds(_WithEnds):
 class Polydyne(Spec):
     """A law that leaves no vibration at its design speed."""
 
-    type: Literal["polydyne"] = Field(description="how the law is shaped")
+    type: Literal["polydyne"] = Field(description="type of the law")
     periods: Periods | None = Field(None, description="natural periods per phase, at least 0.5")
     frequency: Hertz | None = Field(None, description="natural frequency, instead of periods; default: that of loads")
     damping: Damping = Field(0.0, description="damping ratio")
-    speed: Rate | None = Field(None, description="speed for which it is shaped; default: the design's")
+    speed: Rate | None = Field(None, description="speed for which the law is computed; default: the design's")
 
     @model_validator(mode="after")
     def _one(self) -> Self:
         if self.periods is not None and self.frequency is not None:
-            raise refused("periods and frequency say the same\nomit periods or frequency", "frequency")
+            raise refused("periods and frequency specify the same\nomit periods or frequency", "frequency")
         if self.periods is not None and self.speed is not None:
-            raise refused("speed goes with frequency; periods need none", "speed")
+            raise refused("speed applies only with frequency; periods need no speed", "speed")
         return self
 
 
@@ -98,16 +98,20 @@ class LawLimits(Spec):
 class OptimalLaw(Spec):
     """The polynomial law that minimizes something and keeps limits."""
 
-    type: Literal["optimal"] = Field(description="how the law is shaped")
+    type: Literal["optimal"] = Field(description="type of the law")
     minimize: Literal["acceleration", "velocity", "jerk", "residual", "torque"] = Field(description="what is minimized")
-    degree: Annotated[int, Field(ge=9, le=31, json_schema_extra=PLAIN)] = Field(15, description="of the acceleration")
+    degree: Annotated[int, Field(ge=9, le=31, json_schema_extra=PLAIN)] = Field(
+        15, description="degree of the acceleration"
+    )
     symmetric: bool = Field(True, description="the second half mirrors the first")
     velocity: Bound | None = Field(None, description="maximum |ds/dx|, rise 1 over x from 0 to 1")
     acceleration: Bound | None = Field(None, description="maximum second derivative by x; bernstein: its coefficients")
     jerk: Bound | None = Field(None, description="maximum third derivative by x")
-    limit: LawLimits | None = Field(None, description="the same in the units of the file, at the design's speed")
+    limit: LawLimits | None = Field(None, description="the same limit in the units of the file, at the design's speed")
     band: Annotated[list[Bound], Field(min_length=2, max_length=2), Entries("[from, to]", "[8000, 12000]")] | None = (
-        Field(None, description="speeds (design's unit) or natural periods per phase of minimum residual")
+        Field(
+            None, description="band of minimum residual vibration: speeds (design's unit) or natural periods per phase"
+        )
     )
     unit: Literal["periods"] | None = Field(None, description="periods: the band is in natural periods per phase")
     frequency: Hertz | None = Field(None, description="natural frequency; default: loads.vibration")
@@ -118,14 +122,14 @@ class OptimalLaw(Spec):
     @model_validator(mode="after")
     def _meaning(self) -> Self:
         if (self.band is None) != (self.minimize != "residual"):
-            raise refused("minimize: residual needs band, and nothing else has one", "band")
+            raise refused("band is required with minimize: residual, and only with it", "band")
         if self.band is not None and self.band[0] >= self.band[1]:
             raise refused(f"the band runs from {self.band[0]:g} to {self.band[1]:g}\nlet it ascend", "band")
         if self.minimize in self.KEYS and getattr(self, self.minimize) is not None:
-            raise refused(f"{self.minimize} is what is minimized\nomit its limit", self.minimize)
+            raise refused(f"{self.minimize} is minimized and cannot have a limit\nomit it", self.minimize)
         for key in self.KEYS if self.limit is not None else ():
             if getattr(self.limit, key) is not None and (getattr(self, key) is not None or key == self.minimize):
-                raise refused(f"{key} has another limit, or is minimized\nomit this one", f"limit.{key}")
+                raise refused(f"{key} already has another limit, or is minimized\nomit this one", f"limit.{key}")
         places = [at for at in (self, self.limit) if at is not None]
         bounded = any(getattr(at, key) is not None for at in places for key in ("acceleration", "jerk"))
         if self.minimize == "residual" and not bounded:
@@ -136,7 +140,7 @@ class OptimalLaw(Spec):
 class BernsteinLaw(Spec):
     """A solved law by its acceleration."""
 
-    type: Literal["bernstein"] = Field(description="how the law is shaped")
+    type: Literal["bernstein"] = Field(description="type of the law")
     acceleration: Annotated[
         list[Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra=PLAIN)]],
         Field(min_length=2, max_length=64),
@@ -151,7 +155,7 @@ FEWEST_POINTS = 6
 class TableLaw(Spec):
     """A law through the points of a table: the quintic spline that begins at rest and ends at rest or at speed."""
 
-    type: Literal["table"] = Field(description="how the law is shaped")
+    type: Literal["table"] = Field(description="type of the law")
     points: Annotated[list[TablePoint], Field(max_length=2000)] | None = Field(
         None,
         description="[x, s] from [0, 0] to [1, 1], 6 at least; from rest to speed s over end speed and phase, its last "

@@ -168,7 +168,7 @@ def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: fl
     feasible = points[missing <= 1e-13 * scale]
     if feasible.size == 0:
         raise NoSolution(
-            "no cam centre keeps the pressure angle within its limit for the whole revolution",
+            "no cam centre keeps the pressure angle within its limit over the whole revolution",
             fix="raise the limit of the pressure angle, lengthen the phases or reduce the swing",
         )
     return complex(feasible[int(np.argmin(np.abs(feasible - target)))])
@@ -364,7 +364,7 @@ class Rocking(NamedTuple):
 
 
 def _nowhere() -> NoSolution:
-    message = "no cam keeps this pressure angle at this center_distance"
+    message = "no cam meets this pressure angle at this center_distance"
     return NoSolution(message, key="cam.size", fix="raise cam.size.pressure_angle, or change follower.center_distance")
 
 
@@ -385,7 +385,7 @@ def first_from_which(least: Callable[[float], float], low: float, high: float, k
             return bracketed_root(least, before, place)
         before = place
     raise NoSolution(
-        "no cam keeps this curvature_radius here", key=key, fix=f"lower {key}.curvature_radius, or lengthen the motion"
+        "no cam meets this curvature_radius here", key=key, fix=f"lower {key}.curvature_radius, or lengthen the motion"
     )
 
 

@@ -45,8 +45,8 @@ class _LawNames:
 _SHARES = "shares of the rise with sine, constant, cosine and no acceleration, sum 1; the second half mirrors the first"
 _OF_SHARES = {
     "scca": f"{_SHARES}; [0, 1, 0, 0]: parabolic motion",
-    "half-scca": "rest to speed by the first half of the law with these shares, see scca",
-    "velocity-scca": "rest to speed, the velocity follows the law with these shares, see scca",
+    "half-scca": "rest to speed: the first half of the law with these shares, see scca",
+    "velocity-scca": "rest to speed: the velocity has the shape of the law with these shares, see scca",
 }
 _OF_KAPPA = {
     "quintic": "rest to speed by a polynomial of degree 5: its rise over end speed times time, 0.4 to 0.6",

@@ -130,7 +130,7 @@ def gear_check(
     """
     before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
     if name == CONTACT_RATIO.name:
-        remedy = "take more teeth or less profile shift" if shifts else "take more teeth or a smaller pressure angle"
+        remedy = "use more teeth or less profile shift" if shifts else "use more teeth or a smaller pressure angle"
         yield contact_check(pair.contact_ratio, limits, f"{before}contact ratio", remedy)
         return
     for gear in (0, 1):
@@ -271,9 +271,9 @@ def form_parts(pair: GearPair, gear: int) -> dict[str, float]:
 
 
 _NO_FORM = {
-    "height of the teeth of ": ("the teeth of {} have no height", "lower the sum of the profile shifts"),
-    "root radius of ": ("the root of {} reaches its axis", "raise its profile shift or take more teeth"),
-    "tip thickness of ": ("the teeth of {} are pointed below their tips", "lower its profile shift or its addendum"),
+    "height of the teeth of ": ("the teeth of {} have no height", "reduce the sum of the profile shifts"),
+    "root radius of ": ("the root circle of {} has no radius", "raise its profile shift or use more teeth"),
+    "tip thickness of ": ("the teeth of {} are pointed below their tips", "reduce its profile shift or its addendum"),
     "tooth thickness on the reference circle of ": ("the teeth of {} have no thickness on the reference circle", ""),
     "tooth space on the reference circle of ": ("the teeth of {} have no space on the reference circle", ""),
 }
@@ -300,9 +300,9 @@ def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear.measured(UNDERCUT.name, limits)
     x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
     teeth = gear.pair.teeth[gear.place]
-    remedy = "take more teeth, or a larger pressure angle"
+    remedy = "use more teeth, or a larger pressure angle"
     if gear.shifts:
-        remedy = f"raise its profile shift to {safely_above(least)}, or take more teeth"
+        remedy = f"raise its profile shift to {safely_above(least)}, or use more teeth"
     shown = Shown(x, least - (limits.undercut if found.status == "pass" else 0.0))
     what = f"{gear.named('profile shift x of ')} ({teeth} teeth)"
     aside = "undercut begins there" if found.status != "pass" else ""
@@ -311,9 +311,9 @@ def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
 
 def _tip_thickness(gear: _Gear, limits: Limits) -> Iterator[Check]:
     subject = f"{gear.named('tip thickness of ')} over the module"
-    remedy = "lower its profile shift or its addendum"
+    remedy = "reduce its profile shift or its addendum"
     if not gear.shifts:
-        remedy = "take more teeth or a smaller pressure angle"
+        remedy = "use more teeth or a smaller pressure angle"
     yield tip_check(gear.measured(TIP_THICKNESS.name, limits), subject, f"the teeth of {gear.named()}", remedy)
 
 
@@ -330,7 +330,7 @@ def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
     remedy = (
         f"raise the profile shift of {gear.mate} or lower the addendum of {gear.roles[gear.place]}"
         if gear.shifts
-        else f"take more teeth on {gear.mate}, or a larger pressure angle"
+        else f"use more teeth on {gear.mate}, or a larger pressure angle"
     )
     yield INTERFERENCE.check(
         found.status,
@@ -358,13 +358,13 @@ def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
 def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     part, worst = min(form_parts(gear.pair, gear.place).items(), key=lambda each: each[1])
     if worst > 0.0:
-        what = gear.named("smallest of height, thickness and space of the teeth of ")
+        what = gear.named("minimum of height, thickness and space width of the teeth of ")
         yield TOOTH_FORM.check("pass", what, worst, 0.0, "mm")
         return
     lacks, fix = _NO_FORM[part]
     fix = fix or f"bring its profile shift {gear.of('profile_shift'):.4g} nearer to 0"
     what = f"{gear.before}{lacks.format(gear.roles[gear.place])}: no tool can cut them"
-    fix = fix if gear.shifts else "take more teeth"
+    fix = fix if gear.shifts else "use more teeth"
     yield TOOTH_FORM.check("fail", what, worst, 0.0, "mm", shown=NO_NUMBER, fix=fix)
 
 
@@ -375,7 +375,7 @@ def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
         return
     size = abs(found[gear.place])
     what = gear.named("specific sliding at the root of ")
-    fix = "raise its profile shift" if gear.shifts else "take more teeth"
+    fix = "raise its profile shift" if gear.shifts else "use more teeth"
     yield SLIDING.check("warn" if size > limit else "pass", what, size, limit, fix=fix)
 
 

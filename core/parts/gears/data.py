@@ -365,7 +365,7 @@ class GearData:
 
     def rated_with(self, _gear: int) -> str:
         """What a root needs so that it can be rated, in words."""
-        return "take more teeth or a smaller rounding"
+        return "use more teeth or a smaller rounding"
 
     def quantity(self, name: str) -> Any:
         """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""

@@ -215,7 +215,7 @@ def fed_in(data: GearData) -> Iterator[Check]:
     if angle is None or angle >= 0.0:
         return
     what = f"the pinion cutter ({cutting.teeth[0]} teeth) cuts off tips of the ring gear while it feeds in"
-    yield TIP_FOULING.check("fail", what, None, 0.0, "mm", name="radial-assembly", fix="take a cutter of fewer teeth")
+    yield TIP_FOULING.check("fail", what, None, 0.0, "mm", name="radial-assembly", fix="use a cutter of fewer teeth")
 
 
 def tip_beyond_cutter(data: GearData) -> Iterator[Check]:
@@ -227,7 +227,7 @@ def tip_beyond_cutter(data: GearData) -> Iterator[Check]:
     if margin >= 0.0:
         return
     what = "tip of the ring gear beyond the base tangent point of its cutter"
-    fix = f"take a cutter of more than {cutting.teeth[0]} teeth"
+    fix = f"use a cutter of more than {cutting.teeth[0]} teeth"
     yield INTERFERENCE.check("fail", what, margin, 0.0, "mm", overlap=what, aside="no involute there", fix=fix)
 
 
@@ -314,11 +314,11 @@ def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
     total = data.path.total_contact_ratio
     if data.pair.helix_angle == 0.0 or total is None:
         return None
-    transverse, remedy = data.pair.contact_ratio, "take more teeth, or a greater face width or helix angle"
+    transverse, remedy = data.pair.contact_ratio, "use more teeth, or a greater face width or helix angle"
     found = contact_check(total, limits, "total contact ratio", remedy)
     if found.status != "pass" or transverse >= 1.0:
         return found
-    aside = "only the overlap of the helix carries on"
+    aside = "only the overlap of the helix keeps the gears in contact"
     return CONTACT_RATIO.check("warn", "transverse contact ratio", transverse, 1.0, aside=aside, fix=remedy)
 
 

@@ -168,7 +168,7 @@ def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:
         try:
             found = diagonal.split(split, strength_of(data_of(spec, pair)))
         except NoSolution as error:
-            fix = "take another criterion, or x1 as a number: --candidates with shift_split: equal lists all"
+            fix = "use another criterion, or x1 as a number: --candidates with shift_split: equal lists all"
             raise NoSolution(error.message, fix=error.fix or fix) from error
         return diagonal.at(found.first)
 

@@ -254,7 +254,7 @@ class RackMesh:
 def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
     total = rack.path.total_contact_ratio
     eps = total if rack.pair.helix_angle and total else rack.contact_ratio
-    yield contact_check(eps, limits, "contact ratio", "take more teeth or less profile shift")
+    yield contact_check(eps, limits, "contact ratio", "use more teeth or less profile shift")
 
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
@@ -302,7 +302,7 @@ def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
     if found is None or (limits.sliding is None and abs(found[0]) <= limit):
         return
     status: Status = "warn" if abs(found[0]) > limit else "pass"
-    fix = "raise its profile shift or take more teeth"
+    fix = "raise its profile shift or use more teeth"
     yield SLIDING.check(status, "specific sliding at the root of gear 1", abs(found[0]), limit, fix=fix)
 
 
@@ -310,7 +310,7 @@ def _backlash(rack: RackMesh, limits: Any) -> Iterator[Check]:
     found = rack.backlash_normal
     if found is None:
         return
-    yield backlash_check(*found, limits.backlash, rack.pair.module, "gear and rack do not assemble")
+    yield backlash_check(*found, limits.backlash, rack.pair.module, "gear and rack cannot be assembled")
 
 
 _CHECKS: dict[str, Callable[[RackMesh, Any], Iterator[Check]]] = {
@@ -328,7 +328,7 @@ def _judged(
     what: tuple[str, str],
     margin: float,
     limit: float,
-    fix: str = "raise the profile shift of gear 1 or take more teeth",
+    fix: str = "raise the profile shift of gear 1 or use more teeth",
     at: str = "",
 ) -> Check:
     """A finding that fails below its limit; `what` is kept, and what goes beyond where the margin is negative."""

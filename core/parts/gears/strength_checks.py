@@ -59,7 +59,9 @@ def shaped_root(data: GearData) -> str:
         shaped = own * data.pair.module
         return f"radius of ISO 6336-3:2007 with |z_n|; that of the shaped ring itself is {shaped:.4g} mm"
     change = f"{100.0 * abs(less):.2g} % {'lower' if less > 0.0 else 'higher'}"
-    return f"radius of the shaped ring itself; ISO 6336-3:2007 with |z_n| gives {radius:.4g} mm, root stress {change}"
+    return (
+        f"root fillet radius of the shaped ring; ISO 6336-3:2007 with |z_n| gives {radius:.4g} mm, root stress {change}"
+    )
 
 
 def _contact_inputs(data: GearData) -> str:
@@ -112,7 +114,7 @@ def _safety(
             continue
         aside = "idler bent both ways, Y_d 0.7" if _both_ways(data, gear) and rule is BENDING else ""
         status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
-        what, fix = f"{data.called(gear)}: {called}", "take a greater face width, a larger module or a better material"
+        what, fix = f"{data.called(gear)}: {called}", "use a larger face width, a larger module or a better material"
         said = note
         if status != "pass" and (shared := _uneven(rule, data, gear, safety, max(least, 1.0))):
             said, fix = f"{note}; {shared[0]}", shared[1] or fix
@@ -143,7 +145,7 @@ def _uneven(rule: Rule, data: GearData, gear: int, safety: float, least: float) 
         crowning = f"set rating.face.modification to crowning, which gives a safety of {short(reached)}"
         if reached >= least:
             return text, crowning
-        remedy = f"{crowning}, and take a better grade or a stiffer shaft"
+        remedy = f"{crowning}, and use a better grade or a stiffer shaft"
     return text, remedy if safety >= least * (1.0 - taken) else ""
 
 
@@ -185,16 +187,16 @@ def rating_range(data: GearData, _limits: Any) -> Iterator[Check]:
     outside, symbols = list(_outside(data.rated)), unconfirmed(data.rated)
     parts = [f"{amount(len(outside), 'value')} outside the range of its formula"] if outside else []
     if symbols:
-        parts.append(f"without a published check value: {', '.join(symbols)}")
+        parts.append(f"factors without a published check value: {', '.join(symbols)}")
     what = "; ".join(parts) or "every formula of the rating is in its range and has a published check value"
-    note, fix = "; ".join(outside), "check these factors yourself (table factors)"
+    note, fix = "; ".join(outside), "compare these factors with the standard (table factors)"
     yield RATING_RANGE.check("warn" if parts else "pass", what, fix=fix, note=note)
 
 
 def _outside(rated: Rated) -> Iterator[str]:
     given, name = rated.conditions, rated.data.called
     if "material" not in given.given:
-        yield f"no material is named: taken as {' and '.join(dict.fromkeys(steel.of for steel in rated.steels))}"
+        yield f"no material given: assumed {' and '.join(dict.fromkeys(steel.of for steel in rated.steels))}"
     for gear, steel in enumerate(rated.steels):
         low, high = steel.kind.range_of(given.quality)
         unit = "HBW" if steel.kind.brinell else "HV"
@@ -213,9 +215,9 @@ def _outside(rated: Rated) -> Iterator[str]:
         if rated.hardened[gear] and steel.brinell is not None and not 130.0 <= steel.brinell <= 470.0:
             yield f"{steel.brinell:g} HBW of {name(gear)} (Z_W: 130 to 470)"
     if given.pitting_allowed and any(line.bend is None for line in rated.flank_lines):
-        yield "pitting: allowed, not known of this material and not applied"
+        yield "pitting: allowed, which does not exist for this material and is not applied"
     if given.scuffing_stage is not None and rated.data.pair.internal:
-        yield "scuffing of a ring: no integral temperature is given"
+        yield "scuffing of a ring: no integral temperature is computed"
     relief = None if rated.scuffing is None else rated.scuffing.relief_share
     if relief is not None and relief >= 1.0:
         yield "tip relief beyond the deflection of the teeth (X_Ca counts the deflection)"
@@ -243,7 +245,7 @@ def scuffing(data: GearData, limits: Any) -> Iterator[Check]:
     least, safety = limits.safety_scuffing, found.safety
     aside = f"integral temperature {short(found.integral_temperature)} deg C, scuffing temperature "
     aside += f"{short(found.scuffing_temperature)} deg C"
-    fix = "take an oil of a higher rating.lubricant.scuffing_stage"
+    fix = "use an oil of a higher rating.lubricant.scuffing_stage"
     yield SCUFFING.check("fail" if safety < least else "pass", "scuffing safety", safety, least, aside=aside, fix=fix)
 
 
@@ -267,7 +269,7 @@ def damage(data: GearData, limits: Any) -> Iterator[Check]:
             note = ""
             if still is not None and still < safety:
                 bad, note = True, f"static safety at the maximum load: {short(still)} (limit >= {safety:g})"
-            called, fix = f"damage of the {what} of {data.called(gear)}", "widen the gears, or take a better material"
+            called, fix = f"damage of the {what} of {data.called(gear)}", "widen the gears, or use a better material"
             yield DAMAGE.check("fail" if bad else "pass", called, used, 1.0, aside=aside, fix=fix, note=note)
 
 
@@ -282,7 +284,7 @@ def face_load(data: GearData, _limits: Any) -> Iterator[Check]:
     elif given.modification == "none":
         fix = "set rating.face.modification to crowning"
     else:
-        fix = "take a smaller face width, a stiffer shaft or a better grade"
+        fix = "use a smaller face width, a stiffer shaft or a better grade"
     what = "face load factor K_Hb"
     yield FACE_LOAD.check("warn" if factor > _MOST_UNEVEN else "pass", what, factor, _MOST_UNEVEN, fix=fix)
 
@@ -297,9 +299,9 @@ def true_fillet(data: GearData, _limits: Any) -> Iterator[Check]:
             continue
         standard = section.form_factor * section.stress_correction_factor
         apart = factor / standard - 1.0
-        what = f"root stress of {data.called(gear)} on its generated fillet against the standard's"
+        what = f"deviation of the root stress of {data.called(gear)} on its generated fillet from ISO 6336-3"
         aside = f"{short(factor)} and {short(standard)} F_t/(b m)"
         shown = Shown(100.0 * abs(apart), 100.0 * _APART, "%", "<=")
-        fix = "take a tool with a larger rounding"
+        fix = "use a tool with a larger rounding"
         status: Status = "warn" if abs(apart) > _APART else "pass"
         yield TRUE_FILLET.check(status, what, abs(apart), _APART, shown=shown, aside=aside, fix=fix)

@@ -53,7 +53,7 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
     met = abs(residual) <= tolerance
     shown = without_noise(residual, 360.0) if unit == "deg" else residual
     compared = Shown(abs(shown), tolerance, unit, "<=")
-    fix = "allow a larger tolerance, or free more of the links"
+    fix = "allow a larger tolerance, or let more of the links change"
     return TARGET.check(
         "pass" if met else "fail", f"deviation of {what}", residual, tolerance, unit, shown=compared, fix=fix
     )
@@ -85,7 +85,7 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
         return DWELL_EDGE.check("warn", what, width, _NARROW, "mm", side=">=", fix=fix)
     what, aside = "share of the dwell band that the back-step takes", ""
     if share > 1.0 + WINDOW_FIT:
-        aside = "the output dwells about one of its zero-velocity positions"
+        aside = "the output dwells about only one of its two positions of zero velocity"
     elif width is not None:
         aside = f"the frame may vary by {short(width)} mm"
     note = "a frame error can shorten the dwell by a quarter" if found.warns else ""

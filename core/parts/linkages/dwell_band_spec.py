@@ -15,8 +15,8 @@ class DwellBand(Spec):
         None, description="crank angle over which the output stays within +-tolerance"
     )
     tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
-        None, description="output tolerance +- of the window; alone: the longest window is sought"
+        None, description="output tolerance +- in the window; alone: the longest window is found"
     )
     margin: Annotated[float, unit("1", ge=0, lt=1)] | None = Field(
-        None, description="share of the tolerance that the design keeps in reserve, with tolerance alone; default 0.01"
+        None, description="share of the tolerance kept as a margin, with tolerance alone; default 0.01"
     )

@@ -226,7 +226,7 @@ class FeedResults(RealSpeed, Design):
         limit = feed.lay.speed
         over = found > limit * (1.0 + 1e-12)
         what, aside = "maximum speed of the sheet before the lay", f"over the last {short(feed.lay.distance)} mm"
-        fix = "run slower, or choose a drive that is slower there"
+        fix = "reduce the speed, or choose a drive that is slower there"
         yield LAY_SPEED.check("fail" if over else "pass", what, found, limit, "mm/s", side="<=", aside=aside, fix=fix)
 
     def timed(
@@ -286,7 +286,7 @@ def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: 
         here = there
     whole = angle(end) - angle(end - 2.0 * TURN)
     raise NoSolution(
-        f"output angle of the way before the lay: {short(math.degrees(turned))} deg (limit < "
+        f"output angle over the distance before the lay: {short(math.degrees(turned))} deg (limit < "
         f"{safely_below(math.degrees(whole))} deg, that of two revolutions)",
         fix="reduce feed.lay.distance",
     )
@@ -359,7 +359,7 @@ def _judged(speed: Speed, extremes: Sequence[Turning], start: float, end: float)
     values = [speed(start), speed(end), *inside]
     if min(values) < 0.0:
         raise NoSolution(
-            f"the sheet goes back on the way before the lay, speed ratio {short(min(values))}",
-            fix="reduce feed.lay.distance, or take a drive without back-step",
+            f"the sheet moves backwards before the lay, speed ratio {short(min(values))}",
+            fix="reduce feed.lay.distance, or use a drive without back-step",
         )
     return Lay(start, end, max(values), speed(end))

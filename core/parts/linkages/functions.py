@@ -53,9 +53,11 @@ class Wanted:
         least, most = float(np.min(np.abs(np.cos(self._x(s))))), float(np.max(np.abs(y)))
         poles = self.name == "tangent" and (least < 1e-6 or bool(np.any(np.diff(np.sign(np.cos(self._x(s)))) != 0.0)))
         if not np.all(np.isfinite(y)) or poles:
-            raise NoSolution(f"{self.name} does not exist all over {self._shown()}", fix="change the interval")
+            raise NoSolution(f"{self.name} is not defined everywhere over {self._shown()}", fix="change the interval")
         if abs(float(y[-1] - y[0])) <= 1e-9 * most:
-            raise NoSolution(f"{self.name} is the same at both ends of {self._shown()}", fix="change the interval")
+            raise NoSolution(
+                f"{self.name} has the same value at both ends of {self._shown()}", fix="change the interval"
+            )
 
     def _shown(self) -> str:
         return f"x = {self.x[0]:g} to {self.x[1]:g}"

@@ -23,10 +23,10 @@ class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
 
     transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle")
     gear_gap: SignedLength = Field(
-        0.0, description="minimum gap between gears that do not mesh; below 0 in planes of their own"
+        0.0, description="minimum gap between gears that do not mesh; below 0 for gears in separate planes"
     )
     least_shaft: Distance | None = Field(
-        None, description="minimum radius of a shaft that would be built; default: 2 modules"
+        None, description="minimum shaft radius where the file gives none; default: 2 modules"
     )
 
 
@@ -43,7 +43,7 @@ def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth
     if rim is None:
         return
     if ring is None:
-        raise refused("rim goes with a ring gear\nomit it", "rim")
+        raise refused("rim applies only to a ring gear\nomit it", "rim")
     if own_teeth:
         return
     root = module * (0.5 * ring + 1.25)

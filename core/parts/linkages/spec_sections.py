@@ -27,10 +27,10 @@ class PivotShafts(Spec):
 class FrontLay(Spec):
     """The front lay that a sheet arrives at."""
 
-    distance: Length = Field(description="last way before the lay")
-    speed: Annotated[float, unit("mm/s", gt=0)] = Field(description="maximum speed of the sheet on that way")
+    distance: Length = Field(description="distance before the lay over which the speed is checked")
+    speed: Annotated[float, unit("mm/s", gt=0)] = Field(description="maximum speed of the sheet over that distance")
     angle: Annotated[float, unit("deg", ge=0, lt=360)] | None = Field(
-        None, description="crank angle of the arrival; default: where the sheet arrives most gently"
+        None, description="crank angle of the arrival; default: that with the lowest maximum speed"
     )
 
 
@@ -39,17 +39,17 @@ class Feed(Spec):
 
     radius: Length | None = Field(None, description="radius of the roller, or of the pulley under the belt")
     belt_thickness: Distance = Field(
-        0.0, description="thickness of the belt, which runs at half of it above the radius"
+        0.0, description="thickness of the belt, whose neutral line lies half of it above the radius"
     )
     pitch: Length | None = Field(None, description="pitch of the chain, with teeth instead of radius")
     teeth: Annotated[int, unit("teeth", ge=5, le=1000)] | None = Field(
         None, description="teeth of the chain's sprocket"
     )
-    ratio: Ratio = Field(1.0, description="speed of the feed's shaft over that of the output gear")
+    ratio: Ratio = Field(1.0, description="speed of the feed shaft over that of the output gear")
     step: Length | None = Field(
-        None, description="travel per revolution of the input: radius, or of a chain ratio or teeth, are found for it"
+        None, description="required travel per revolution of the input: radius, or for a chain ratio or teeth, is found"
     )
-    lay: FrontLay | None = Field(None, description="the front lay, where the sheet must be slow; needs input_speed")
+    lay: FrontLay | None = Field(None, description="the front lay, at which the sheet must be slow; needs input_speed")
 
     @model_validator(mode="after")
     def _one_form(self) -> Self:
@@ -58,7 +58,7 @@ class Feed(Spec):
             return self._of_step()
         if self.radius is not None and chain:
             message = (
-                "radius goes with a roller or a belt, pitch and teeth with a chain\nomit radius, or pitch and teeth"
+                "radius applies to a roller or a belt, pitch and teeth to a chain\nomit radius, or pitch and teeth"
             )
             raise refused(message, chain[0])
         if self.radius is None and len(chain) < 2:
@@ -71,13 +71,13 @@ class Feed(Spec):
         """A step leaves one size to be found."""
         ratio = "ratio" in self.model_fields_set
         if self.radius is not None:
-            raise refused("step finds the radius\nomit one of them", "radius")
+            raise refused("step determines the radius\nomit one of them", "radius")
         if self.teeth is not None and self.pitch is None:
-            raise refused("teeth go with pitch\ngive it", "pitch", "GL106")
+            raise refused("teeth needs pitch\ngive it", "pitch", "GL106")
         if self.teeth is not None and ratio:
-            raise refused("step finds the ratio, or the teeth\nomit one of them", "ratio")
+            raise refused("step determines the ratio or the teeth\nomit one of them", "ratio")
         if self.pitch is not None and self.teeth is None and not ratio:
-            raise refused("of a chain step needs pitch and teeth, or pitch and ratio", "teeth", "GL106")
+            raise refused("for a chain, step needs pitch and teeth, or pitch and ratio", "teeth", "GL106")
         if self.pitch is not None and self.belt_thickness:
             raise refused("a chain has no belt_thickness\nomit it", "belt_thickness")
         return self
@@ -88,13 +88,13 @@ def require_function(
 ) -> None:
     """Refuse a function whose exponent, interval or output swing does not go with it."""
     if (name == "power") != (exponent is not None):
-        message = "exponent goes with power, and a power needs one\n"
+        message = "exponent is required with power, and only with it\n"
         message += "give exponent" if name == "power" else "omit exponent"
         raise refused(message, "exponent")
     if x is not None and x[0] == x[1]:
         raise refused("x is the same at both ends\ngive an interval", "x[1]")
     if output_swing == 0.0:
-        raise refused("an output at rest is no function\ngive output_swing above or below 0", "output_swing", "GL108")
+        raise refused("a function needs a moving output\ngive output_swing above or below 0", "output_swing", "GL108")
 
 
 class FourLinks(Spec):

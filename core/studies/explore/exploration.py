@@ -119,10 +119,10 @@ class Exploration(Design):
         """GL161."""
         share = self.feasible / self.designs
         what = f"share of designs that satisfy {self.problem.asked}"
-        note = "checks.must_pass: all requires it too" if self.problem.waived else ""
+        note = "checks.must_pass: all requires them too" if self.problem.waived else ""
         name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))
         aside = f"{self.feasible} of {self.designs}"
-        aside += f"; {name} alone removes {worst.alone}" if worst.alone and share < _FEW else ""
+        aside += f"; {name} alone excludes {worst.alone}" if worst.alone and share < _FEW else ""
         status: Status = "pass" if share >= _FEW else "warn" if self.feasible else "fail"
         fix = f"relax {name}, or widen the ranges (table why)" if name else "widen the ranges"
         return FEASIBLE.check(status, what, share, _FEW, side=">=", aside=aside, fix=fix, note=note)

@@ -105,7 +105,7 @@ class _Reading:
             if not self.base.knows(other):
                 kind = self.base.kind.name
                 helps = self.base.nearest(other, self.base.units)
-                self.faults.append(Fault("GL151", f"{other} is no key of {kind}", at, helps))
+                self.faults.append(Fault("GL151", f"{other} is not a key of {kind}", at, helps))
                 return None
             if other in taken:
                 message = f"{other} is given by the variable {taken[other]} already"
@@ -113,8 +113,8 @@ class _Reading:
                 return None
             taken[other] = path
         if given.times is not None and (given.times not in before or not numeric(before[given.times])):
-            message = f"{given.times!r} is no variable of numbers above {path}"
-            self.faults.append(Fault("GL151", message, (*place, "times"), "list it before"))
+            message = f"{given.times!r} is not a numeric variable listed before {path}"
+            self.faults.append(Fault("GL151", message, (*place, "times"), "list it before this variable"))
             return None
         made = self._made(path, given, before)
         wrong = self._refused_value(made, before)
@@ -145,12 +145,12 @@ class _Reading:
         if variable.whole and variable.step is not None and variable.step != int(variable.step):
             return Fault(
                 "GL156",
-                f"{variable.path} takes whole numbers: its step is one too, not {variable.step:g}",
+                f"{variable.path} takes whole numbers: its step must be one, not {variable.step:g}",
                 (*place, "step"),
             )
         tried = list(_tried(variable, before))
         if not tried:
-            return Fault("GL111", f"the range of {variable.path} holds no value", place, "widen it")
+            return Fault("GL111", f"the range of {variable.path} contains no value", place, "widen it")
         paths = (variable.path, *variable.also)
         self._ends += [[(path, value) for path in paths] for value in (tried[0], tried[-1])]
         for value in tried:
@@ -187,7 +187,7 @@ class _Reading:
         for key, sign in (("minimize", 1.0), ("maximize", -1.0)):
             for name, given in getattr(self.spec, key).items():
                 if sign < 0.0 and name in self.spec.minimize:
-                    self.faults.append(Fault("GL111", f"{name} is minimised already", (key, name)))
+                    self.faults.append(Fault("GL111", f"{name} is already minimised", (key, name)))
                     continue
                 try:
                     objectives.append(objective(name, given, sign, names, (key, name)))
@@ -202,7 +202,7 @@ class _Reading:
         if clash is not None:
             first, second = (conditions[i].text for i in clash)
             message = f"no design can meet both `{first}` and `{second}`"
-            self.faults.append(Fault("GL111", message, ("where", clash[1]), "widen or leave out one of them"))
+            self.faults.append(Fault("GL111", message, ("where", clash[1]), "widen or omit one of them"))
         return objectives, conditions
 
     def base_values(self, objectives: list[Objective], conditions: list[Condition]) -> tuple[str, ...]:

@@ -109,7 +109,7 @@ class Problem:
                 raise WrongStudy([self._too_many(count, budget)])
         elif sampling.method == "grid":
             real = next(variable for variable in self.variables if variable.continuous)
-            message = f"{real.path} is a real number without step, which has no grid"
+            message = f"{real.path} is a real number without step and has no grid"
             raise WrongStudy([Fault("GL155", message, ("variables", real.path), "give it a step, points or values")])
         most = asked or (SCALAR_SAMPLE_BUDGET if scalar else SAMPLE_BUDGET)
         return Sample(self.variables, 2 ** int(math.log2(most)), sampling.seed)
@@ -125,7 +125,7 @@ class Problem:
         sizes = {v.path: len(v.values) or _most_values(v) for v in self.variables}
         widest = max(sizes, key=lambda path: sizes[path])
         message = f"designs of the grid: {count:.10g} (limit <= {budget:.10g}; sampling.budget)"
-        helps = f"coarsen {widest} ({sizes[widest]:.0f} values) or raise sampling.budget (--budget)"
+        helps = f"use fewer values of {widest} ({sizes[widest]:.0f} values) or raise sampling.budget (--budget)"
         return Fault("GL155", message, ("sampling", "budget"), helps)
 
     @cached_property

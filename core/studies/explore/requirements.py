@@ -116,7 +116,7 @@ class Names:
             return
         helps = self.nearest(name, [*self.defined, *self.known])
         if name in self.later:
-            helps = f"list {name} before, and let no definition go back to itself"
+            helps = f"define {name} before it is used; no definition may depend on itself"
         raise FaultFound(Fault("GL152", f"no quantity {name!r} of this kind of design", place, helps))
 
     def unit(self, expression: Expression) -> str | None:
@@ -149,7 +149,7 @@ def objective(name: str, given: float | str, sign: float, names: Names, place: P
     size = float(given) if isinstance(given, (int, float)) else float(amount[1]) if amount else 0.0
     if not _LEAST_RESOLUTION <= size < np.inf:
         least = "above 0" if size <= 0.0 or size == np.inf else f"of {_LEAST_RESOLUTION:g} at least"
-        message = f"{name} needs a resolution {least}, not {given!r}: the difference that you would not pay for"
+        message = f"{name} needs a resolution {least}, not {given!r}: the largest difference that does not matter"
         raise FaultFound(Fault("GL154", message, place, "such as 10 mm"))
     unit = _same_unit(name, expression, (amount[2] or "").strip() if amount else "", names, place)
     return Objective(name, expression, sign, size, unit)
@@ -165,7 +165,7 @@ def condition(text: str, names: Names, place: Place) -> Condition:
     if parts is None:
         helps = "such as min_transmission_angle >= 45 deg"
         raise FaultFound(
-            Fault("GL152", f"{_short(text)!r} compares nothing: it has none of >=, <=, ==, <, >", place, helps)
+            Fault("GL152", f"{_short(text)!r} is not a comparison: it has none of >=, <=, ==, <, >", place, helps)
         )
     left, sign, right = (part.strip() for part in parts.groups())
     if any(mark in right for mark in COMPARED):
@@ -173,7 +173,7 @@ def condition(text: str, names: Names, place: Place) -> Condition:
         raise FaultFound(Fault("GL152", f"{_short(text)!r} compares twice", place, helps))
     if _AMOUNT.fullmatch(left) and not _AMOUNT.fullmatch(right):
         helps = f"write {right} {_TURNED[sign]} {left}"
-        raise FaultFound(Fault("GL152", f"{_short(left)!r} is a number: the quantity is on the left", place, helps))
+        raise FaultFound(Fault("GL152", f"{_short(left)!r} is a number: write the quantity on the left", place, helps))
     expression = names.expression(left, place)
     amount = _AMOUNT.fullmatch(right)
     if amount is not None:
@@ -260,7 +260,7 @@ def no_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> Itera
     for name in names:
         plain, _, index = name.partition("[")
         if index and whole[plain] is not None and not isinstance(whole[plain], (list, tuple)):
-            yield Fault("GL152", f"{plain} is no list: it has no entry {index.rstrip(']')}", place, f"take {plain}")
+            yield Fault("GL152", f"{plain} is not a list: it has no entry {index.rstrip(']')}", place, f"use {plain}")
 
 
 def beyond_lists(names: Iterable[str], whole: dict[str, Any], place: Place, kind: str) -> Iterator[Fault]:
@@ -283,7 +283,7 @@ def odd_comparisons(
         value = values[name]
         if isinstance(value, (list, tuple)):
             entries = _listed(name, len(value), kind) if whose(name, len(value), kind) else ""
-            helps = f"take one of them, {name}[0]{f'; {entries}' if entries else ''}"
+            helps = f"use one of them, {name}[0]{f'; {entries}' if entries else ''}"
             yield Fault("GL152", f"{name} is a list of {len(value)}", place, helps)
         elif isinstance(value, str) and not words:
             yield Fault("GL152", f"{name} is a word ({value}), not a number", place, f"where: {name} == {value}")
@@ -295,5 +295,5 @@ def odd_comparisons(
             and isinstance(value, float)
             and name == expression.text
         ):
-            message = f"{name} is a real number, which equals nothing exactly"
+            message = f"{name} is a real number, which cannot be compared by =="
             yield Fault("GL152", message, place, "compare it by >= and <=")

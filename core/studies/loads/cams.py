@@ -42,14 +42,14 @@ def no_width(allowed: float) -> Check:
 
 def pressed_where_undercut(words: str, allowed: float) -> Check:
     """GL607 of a roller that would press where its profile is cut away."""
-    what, fix = f"{words} is undercut: no contact pressure", "enlarge the cam, or take a smaller roller"
+    what, fix = f"{words} is undercut: no contact pressure", "enlarge the cam, or use a smaller roller"
     return CONTACT_PRESSURE.check("fail", what, None, allowed, "N/mm^2", fix=fix)
 
 
 def pressure_check(what: str, found: float, allowed: float, at: str) -> Check:
     """GL607 of a contact pressure [N/mm^2]."""
     status: Status = "fail" if found > allowed else "warn" if found > _NEAR * allowed else "pass"
-    fix = "take a wider roller"
+    fix = "use a wider roller"
     most = _NEAR * allowed
     return CONTACT_PRESSURE.check(status, what, found, allowed, "N/mm^2", recommended=most, at=at, fix=fix)
 
@@ -120,7 +120,7 @@ class CamLoadsDesign(LoadsDesign):
         """Refuse a preload or its stiffness where no pair of rollers has it."""
         for key in ("preload", "stiffness") if self.section.roller is not None and not self.has_pair else ():
             if getattr(self.section.roller, key):
-                words = f"{key} is of two rollers of one follower on two cams, which this design has not"
+                words = f"{key} applies to two rollers of one follower on two cams, which this design does not have"
                 raise NoSolution(words, key=f"loads.roller.{key}", fix="omit it")
 
     @property
@@ -162,7 +162,7 @@ class CamLoadsDesign(LoadsDesign):
     @property
     def closing_remedy(self) -> str:
         """What would press the rollers harder to their cams."""
-        return "press it harder, lower the speed, or lighten the follower"
+        return "increase the contact force, reduce the speed, or use a lighter follower"
 
     @cached_property
     def own_rollers(self) -> tuple[str, ...]:
@@ -425,7 +425,7 @@ class CamLoadsDesign(LoadsDesign):
                 low.value,
                 0.0,
                 "N",
-                overlap=f"contact force lacking: the {self.called(name)} leaves its cam",
+                overlap=f"missing contact force: the {self.called(name)} leaves its cam",
                 recommended=_LEAST_SHARE * mean,
                 at=f"{short(math.degrees(low.place))} deg",
                 fix=self.closing_remedy,
@@ -439,12 +439,14 @@ class CamLoadsDesign(LoadsDesign):
         limit = self.section.roller.friction
         for name, share in zip(self.own_rollers, found, strict=True):
             if share is None:
-                what, fix = f"the {self.called(name)} leaves its cam, where nothing drives it round", "press it harder"
+                what, fix = f"the {self.called(name)} leaves its cam, where no friction drives it", "press it harder"
                 yield ROLLER_SKID.check("warn", what, None, limit, fix=fix)
                 continue
-            what = f"friction that drives the {self.called(name)} round, over its contact force"
+            what = f"friction that drives the {self.called(name)}, over its contact force"
             status: Status = "warn" if share > limit else "pass"
-            yield ROLLER_SKID.check(status, what, share, limit, fix="take a lighter roller, or press it harder")
+            yield ROLLER_SKID.check(
+                status, what, share, limit, fix="use a lighter roller, or increase the contact force"
+            )
 
     def check_preload(self) -> Iterator[Check]:
         """GL613, of a positive drive with preload."""
@@ -504,5 +506,5 @@ class CamLoadsDesign(LoadsDesign):
         """What keeps a follower between two cams on both."""
         needed = self.preload_needed
         if needed is None or self.section.roller is None:
-            return "press both rollers on (loads.roller.preload)"
+            return "press both rollers on their cams (loads.roller.preload)"
         return _preload_fix(needed)

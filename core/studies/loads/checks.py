@@ -122,7 +122,7 @@ def power_identity(design: LoadsDesign) -> Check:
     """GL601."""
     found = design.power_identity
     status: Status = "pass" if found <= _IDENTITY else "fail"
-    what = "difference of the input torques by virtual power and by joint forces, over the largest"
+    what = "difference of the input torques by virtual power and by joint forces, over their maximum"
     fix = "keep the links farther from a dead centre"
     return codes.POWER_IDENTITY.check(status, what, found, _IDENTITY, fix=fix)
 
@@ -161,7 +161,7 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
     if motor is None:
         return
     if motor.max_torque is None and motor.rated_torque is None:
-        what, fix = "no torque of the motor in the file", "give loads.motor.rated_torque and max_torque"
+        what, fix = "the file gives no torque of the motor", "give loads.motor.rated_torque and max_torque"
         aside = f"required up to {short(abs(running.motor_peak or 0.0))} N m, rms {short(running.motor_rms or 0.0)} N m"
         yield codes.MOTOR_TORQUE.check("warn", what, aside=aside, fix=fix)
     margin = design.limit("torque_margin")
@@ -179,7 +179,7 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
             "N m",
             recommended=min(limit, _NEAR * bound),
             aside="against its rotation" if signed < 0.0 else "",
-            fix=f"take a motor of at least {safely_above(value * margin)} N m",
+            fix=f"use a motor of at least {safely_above(value * margin)} N m",
         )
 
 
@@ -194,13 +194,13 @@ def motor_speed(design: LoadsDesign) -> Iterator[Check]:
     ratio = None if status == "pass" else running.ratio_of_speed
     yield codes.MOTOR_TORQUE.check(
         status,
-        "deviation of the speed by the motor from that of the file",
+        "relative deviation of the motor's mean speed from that of the file",
         off,
         _OTHER_SPEED,
         name=name,
         recommended=_NEAR_SPEED,
         aside=f"motor {short(mean)} 1/min, file {short(asked)} 1/min",
-        fix=f"set loads.motor.ratio near {short(ratio)}" if ratio else "take a stronger motor, or one of less slip",
+        fix=f"set loads.motor.ratio near {short(ratio)}" if ratio else "use a stronger motor, or one of less slip",
         note="forces, lives and vibration are those of the speed of the file" if status != "pass" else "",
     )
 
@@ -211,7 +211,7 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
     if flywheel is None and design.section.motor is None:
         return
     if running.stops:
-        what = "the machine stops: its load takes more energy than this flywheel stores"
+        what = "the machine stops: its load needs more energy than this flywheel stores"
         fix = "give loads.flywheel: {fluctuation: 0.05} alone to find the minimum flywheel"
         yield codes.SPEED_FLUCTUATION.check("fail", what, running.inertia, None, "kg m^2", fix=fix)
         return
@@ -219,14 +219,14 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
     what = "speed fluctuation"
     if allowed is None:
         if found > _UNEVEN:
-            fix = "take a heavier flywheel, or allow it by loads.flywheel.fluctuation"
+            fix = "use a heavier flywheel, or increase loads.flywheel.fluctuation"
             note = "forces, lives and vibration are those of a constant speed"
             yield codes.SPEED_FLUCTUATION.check("warn", what, found, _UNEVEN, fix=fix, note=note)
     elif found > allowed * (1.0 + 1e-9):
-        fix = f"take a flywheel of {safely_above(running.needed or 0.0)} kg m^2"
+        fix = f"use a flywheel of {safely_above(running.needed or 0.0)} kg m^2"
         yield codes.SPEED_FLUCTUATION.check("fail", what, found, allowed, fix=fix)
     elif found > _NEAR * allowed and flywheel.inertia is not None:
-        most, fix = _NEAR * allowed, "take a heavier flywheel"
+        most, fix = _NEAR * allowed, "use a heavier flywheel"
         yield codes.SPEED_FLUCTUATION.check("warn", what, found, allowed, recommended=most, fix=fix)
     else:
         yield codes.SPEED_FLUCTUATION.check("pass", what, found, allowed)
@@ -244,20 +244,20 @@ def bearing_life(design: LoadsDesign) -> Iterator[Check]:
             least = _SWING_PER_BODY / bodies if bodies else _SWING_UNKNOWN
             swing = math.degrees(pin.swing)
             if swing < least:
-                what, fix = f"swing of the bearing of {name}, too small for a rating life", "take a plain bearing"
+                what, fix = f"swing of the bearing of {name}, too small for a rating life", "use a plain bearing"
                 yield codes.BEARING_LIFE.check("warn", what, swing, least, "deg", fix=fix)
         if life is None or bearing.life is None:
             continue
         if axial := thrust(design, name):
             what, fix = f"axial force of helical teeth on the bearing of {name}", "add it to the load of the bearing"
-            note = "its rating life is that of the forces in the plane"
+            note = "its rating life includes only the forces in the plane"
             shown = Shown(axial, None, "N")
             yield codes.BEARING_LIFE.check("warn", what, axial, 0.0, "N", shown=shown, fix=fix, note=note)
         least = _LEAST_LIFE_MARGIN * bearing.life
         rating = bearing.dynamic_rating * ((bearing.life if life < bearing.life else least) / life) ** (
             1.0 / pin.exponent
         )
-        fix = f"take a bearing with a dynamic rating of {safely_above(rating)} N"
+        fix = f"use a bearing with a dynamic rating of {safely_above(rating)} N"
         yield codes.BEARING_LIFE.below(life, bearing.life, least, "h", f"rating life of the bearing of {name}", fix)
 
 
@@ -269,11 +269,11 @@ def force_amplification(design: LoadsDesign) -> Iterator[Check]:
     found = 1.0 / math.sin(least)
     yield codes.FORCE_AMPLIFICATION.check(
         "warn" if found > _AMPLIFICATION else "pass",
-        "pin forces against those at a transmission angle of 90 deg",
+        "pin forces over those at a transmission angle of 90 deg",
         found,
         _AMPLIFICATION,
         aside=f"minimum transmission angle {short(math.degrees(least))} deg",
-        fix="change the links for a larger transmission angle",
+        fix="change the links to increase the transmission angle",
     )
 
 
@@ -295,7 +295,7 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
 
     ratio, place = design.nearest_locking
     if place is None:
-        what = "the mechanism locks itself with this friction"
+        what = "the mechanism is self-locking with this friction"
         yield codes.SELF_LOCKING.check("fail", what, None, LOCKS, fix=_LESS_FRICTION)
         return
     what, at = "convergence ratio of the friction iteration", f"{short(math.degrees(place))} deg"
@@ -314,11 +314,11 @@ def tooth_load(design: LoadsDesign) -> Iterator[Check]:
     for name, rated in rated_forces(design).items():
         mesh = design.meshes_found[name]
         found, back = bending_force(mesh), mesh.tooth_force_back
-        other = f", {short(back)} N on the other flanks" if back > 0.0 else ""
+        other = f", {short(back)} N on the opposite flanks" if back > 0.0 else ""
         over = found > rated * (1.0 + _ROUNDING)
         yield codes.TOOTH_LOAD.check(
             "warn" if over else "pass",
-            f"{name}: tooth force against the rated one",
+            f"{name}: tooth force over the force of the rating",
             found,
             rated,
             "N",
@@ -348,12 +348,15 @@ def rigid_model(design: LoadsDesign) -> Iterator[Check]:
     aside = f"{short(r)} natural periods per motion" if r is not None else ""
     share = residual / vibrating.lift if residual else None  # an output that stands has neither
     if found >= limit and share is not None and share > _ONE_PERCENT:
-        what, shown = "vibration left after the motion, over the lift", Shown(100.0 * share, 1.0, "%", "<=")
-        fix = "take a smoother motion law, or a lower speed"
+        what, shown = "residual vibration after the motion, over the lift", Shown(100.0 * share, 1.0, "%", "<=")
+        fix = "use a smoother motion law, or a lower speed"
         yield codes.RIGID_MODEL.check("warn", what, share, _ONE_PERCENT, shown=shown, aside=aside, fix=fix)
         return
     status: Status = "warn" if found < limit else "pass"
-    what, fix = "natural frequency over that of the input", "stiffen the output, or lower the speed"
+    what, fix = (
+        "natural frequency of the output over the frequency of the input",
+        "stiffen the output, or reduce the speed",
+    )
     note = "forces are those of rigid links" if status == "warn" else ""
     yield codes.RIGID_MODEL.check(status, what, found, limit, side=">=", aside=aside, fix=fix, note=note)
 
@@ -367,7 +370,7 @@ def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
     vibrating = design.vibrating
     unit = "mm" if vibrating.slides else "deg"
     if not vibrating.motions:
-        what = "the output has no dwell in which vibration could be left"
+        what = "the output has no dwell, so there is no residual vibration"
         fix = "remove loads.vibration.allowed_residual; the table harmonics has the deflection"
         yield codes.RESIDUAL_VIBRATION.check("warn", what, None, allowed, unit, fix=fix)
         return
@@ -380,7 +383,7 @@ def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
     key = "loads.vibration.stiffness" if vibration.frequency is None else "loads.vibration.frequency"
     fix = f"raise {key}"
     if slowest:
-        fix = f"lower the speed to at most {safely_below(slowest / design.speed_unit)} {design.speed_words}"
+        fix = f"reduce the speed to at most {safely_below(slowest / design.speed_unit)} {design.speed_words}"
     yield codes.RESIDUAL_VIBRATION.check(status, what, found, allowed, unit, recommended=most, fix=fix)
 
 
@@ -393,7 +396,7 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
     order = max(1, round(ratio))
     if vibrating.response.unbounded:
         what = f"{_harmonic(order, turns)}, resonance without damping"
-        off, fix = abs(ratio / order - 1.0), "change the speed, or give damping"
+        off, fix = abs(ratio / order - 1.0), "change the speed, or give loads.vibration.damping"
         yield codes.RESONANCE.check("fail", what, off, _NEAR_RESONANCE, shown=_percent(off), fix=fix)
         return
     # Of a period of several turns, or a motion of which every second harmonic is none, the nearest may be nothing.
@@ -409,7 +412,7 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
     found = min(strong, key=lambda n: abs(ratio / n - 1.0))
     off = abs(ratio / found - 1.0)
     # from the fifth harmonic on the next one is as near, whatever the speed
-    remedy = "change the speed by 10 %" if found < _CLOSE * turns else "stiffen the output, or take a smoother law"
+    remedy = "change the speed by 10 %" if found < _CLOSE * turns else "stiffen the output, or use a smoother law"
     aside = f"{short(100.0 * shares[found], 3)} % of the largest harmonic"
     what, shown = _harmonic(found, turns), _percent(off)
     yield codes.RESONANCE.check("warn", what, off, _NEAR_RESONANCE, shown=shown, aside=aside, fix=remedy)

@@ -177,9 +177,7 @@ class LoadsDesign(Design):
             raise MissingSection("`loads` needs the speed of the input", key="loads.speed", fix="give loads.speed")
         if abs(given) < _SLOWEST:
             words = f"{_SLOWEST:g} 1/min or more, or -{_SLOWEST:g} 1/min or less for a revolution the other way"
-            raise NoSolution(
-                f"no loads of motion at a speed of {given:g} 1/min", key="loads.speed", fix=f"give {words}"
-            )
+            raise NoSolution(f"no inertia forces at a speed of {given:g} 1/min", key="loads.speed", fix=f"give {words}")
         return given
 
     @property
@@ -237,7 +235,7 @@ class LoadsDesign(Design):
         sources = Sources(self.section, self.own_links, self.sliding)
         if not self.masses and not sources.any and not self.shaft_inertia:
             raise MissingSection(
-                "without a mass, an inertia or a force there is no load",
+                "no loads without a mass, an inertia or a force",
                 key="loads.links" if "links" in type(self.section).model_fields else "loads",
                 fix="give loads.links or loads.forces",
             )

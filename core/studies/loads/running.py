@@ -74,7 +74,7 @@ class Running:
         # what the links add is nowhere negative, and is not sought where there is a flywheel or a motor
         if not (self.inertia > 0.0 or self.design.reflected_inertia_min > 0.0):
             raise MissingSection(
-                "without any inertia on the input its speed is not defined",
+                "the speed is not defined without inertia at the input",
                 key="loads.flywheel",
                 fix="give loads.flywheel: {inertia: kg m^2}, or masses in loads.links",
             )
@@ -381,7 +381,7 @@ class MotorRun:
 
 def _stalls() -> NoSolution:
     return NoSolution(
-        "the motor stalls: over a period the load takes more than it gives",
+        "the motor stalls: over a period the load needs more energy than the motor gives",
         key="loads.motor",
-        fix="raise its torque (slope, rated_torque) or no_load_speed, change ratio, or add a flywheel",
+        fix="increase its torque (slope, rated_torque) or no_load_speed, change ratio, or add a flywheel",
     )

@@ -131,11 +131,13 @@ def coefficients_of(given: Friction, connections: Sequence[Connection]) -> Coeff
     for each in connections:
         of_teeth = isinstance(each, Toothed)
         if given.joints.get(each.name) == (0.0 if of_teeth else 1.0):
-            allowed = "the efficiency of a mesh lies above 0" if of_teeth else "a coefficient of friction lies below 1"
+            allowed = (
+                "the efficiency of a mesh must be above 0" if of_teeth else "a coefficient of friction must be below 1"
+            )
             raise NoSolution(f"{given.joints[each.name]:g}: {allowed}", key=f"loads.friction.joints.{each.name}")
     pins = (given.joints.get(each.name, given.pins) for each in connections if isinstance(each, Pin))
     if given.pin_radius == 0.0 and any(pins):
-        words = "friction of pins acts at their radius"
+        words = "friction of pins needs their radius"
         raise MissingSection(words, key="loads.friction", fix="give loads.friction.pin_radius (mm)")
     joints = dict(given.joints)
     return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius, joints, given.contacts)
@@ -233,7 +235,9 @@ def _spring(spring: Spring, mechanism: Mechanism, phi: Reals, key: str) -> Itera
     length = np.abs(way)
     if not np.all(length > 1e-6):
         raise NoSolution(
-            "this spring has no length somewhere in the turn", key=f"{key}.points", fix="move one of its points"
+            "the length of this spring becomes 0 within the revolution",
+            key=f"{key}.points",
+            fix="move one of its points",
         )
     pull = (spring.preload + spring.rate * (length - spring.free_length)) * way / length
     for name, end, sign in zip(spring.between, ends, (1.0, -1.0), strict=True):

@@ -37,14 +37,14 @@ class Body(Spec):
 class Zone(Spec):
     """A stretch of the input's turn with a constant value; zero outside of all zones."""
 
-    start: Angle = Field(alias="from", description="input angle at which it starts")
-    end: Angle = Field(alias="to", description="input angle at which it ends")
-    value: Number = Field(description="torque (N m) or force (N) in it")
+    start: Angle = Field(alias="from", description="input angle at the start of the zone")
+    end: Angle = Field(alias="to", description="input angle at the end of the zone")
+    value: Number = Field(description="torque (N m) or force (N) in the zone")
 
     @model_validator(mode="after")
     def _some_width(self) -> Self:
         if self.start == self.end:
-            raise refused("this zone is empty: it ends where it starts", "to")
+            raise refused("this zone is empty: its end equals its start", "to")
         return self
 
 
@@ -56,7 +56,7 @@ class Course(Spec):
     )
     interpolation: Literal["step", "linear", "cubic"] = Field("linear", description="between the pairs of the table")
     zones: Annotated[list[Zone], Field(min_length=1, max_length=1000)] | None = Field(
-        None, description="stretches of constant value, instead of a table"
+        None, description="zones of constant value, instead of a table"
     )
 
     @model_validator(mode="after")
@@ -75,12 +75,10 @@ class Course(Spec):
             if angles[-1] - angles[0] > 360.0:
                 raise refused("a table covers one revolution at most", "table")
             if angles[-1] - angles[0] == 360.0 and self.table[0][1] != self.table[-1][1]:
-                message = (
-                    "a table over a whole revolution ends with the value that it starts with, or without its last pair"
-                )
+                message = "a table over a whole revolution must end with its first value, or omit the last pair"
                 raise refused(message, "table")
             if self.interpolation == "cubic" and len(angles) < 3:
-                raise refused("cubic needs three pairs or more", "interpolation")
+                raise refused("cubic needs at least three pairs", "interpolation")
         return self
 
 
@@ -97,7 +95,7 @@ class Load(Spec):
     )
     point: Vector | None = Field(None, description="point of the link where the vector acts, in link coordinates")
     resistance: Annotated[float, unit("1", ge=0, le=1e12)] | None = Field(
-        None, description="force (N) or torque (N m) that is always against the motion"
+        None, description="force (N) or torque (N m) opposite to the motion"
     )
 
     @model_validator(mode="after")
@@ -109,7 +107,7 @@ class Load(Spec):
         if isinstance(self.force, list) and self.point is None:
             raise refused("a force [x, y] needs the point where it acts", "force", "GL106")
         if self.point is not None and not isinstance(self.force, list):
-            raise refused("point goes with a force [x, y]", "point")
+            raise refused("point applies only to a force [x, y]", "point")
         return self
 
 
@@ -120,7 +118,7 @@ class Spring(Spec):
         description="two links, or one and frame"
     )
     points: Annotated[list[Vector], Field(min_length=2, max_length=2), Entries("[[x, y], [x, y]]")] = Field(
-        description="its ends, each in its link's coordinates; those of the frame in the design's"
+        description="end points of the spring, each in the coordinates of its link; on the frame in those of the design"
     )
     rate: Annotated[float, unit("N/mm", ge=0, le=1e9)] = Field(description="spring rate")
     free_length: Length = Field(description="length without force (with preload: at the preload)")
@@ -147,9 +145,11 @@ class Friction(Spec):
 class Flywheel(Spec):
     """A flywheel on the input shaft."""
 
-    inertia: Annotated[float, unit("kg m^2", ge=0, le=1e12)] | None = Field(None, description="its moment of inertia")
+    inertia: Annotated[float, unit("kg m^2", ge=0, le=1e12)] | None = Field(
+        None, description="moment of inertia of the flywheel"
+    )
     fluctuation: Annotated[float, unit("1", gt=0, lt=1)] | None = Field(
-        None, description="(maximum - minimum)/mean speed allowed, the mean of these two; alone, the inertia is sought"
+        None, description="allowed (maximum - minimum)/mean speed, mean of these two; alone: the inertia is found"
     )
 
     @model_validator(mode="after")
@@ -163,11 +163,11 @@ class Motor(Spec):
     """A motor whose torque falls linearly with its speed."""
 
     no_load_speed: Annotated[float, unit("1/min", gt=0, le=1e7)] = Field(
-        description="speed without torque, at the motor's shaft"
+        description="no-load speed of the motor's shaft"
     )
     rated_speed: Annotated[float, unit("1/min", gt=0, le=1e7)] | None = Field(None, description="speed at rated_torque")
     rated_torque: Annotated[float, unit("N m", gt=0, le=1e9)] | None = Field(
-        None, description="torque that it may give all the time"
+        None, description="rated continuous torque"
     )
     slope: Annotated[float, unit("N m s", gt=0, le=1e12)] | None = Field(
         None, description="torque lost per rad/s, instead of rated_speed and rated_torque"
@@ -177,7 +177,7 @@ class Motor(Spec):
         1.0, description="motor revolutions per revolution of the input"
     )
     max_torque: Annotated[float, unit("N m", gt=0, le=1e9)] | None = Field(
-        None, description="maximum torque for a moment"
+        None, description="maximum short-time torque"
     )
 
     @model_validator(mode="after")
@@ -197,7 +197,7 @@ class Motor(Spec):
 class Bearing(Spec):
     """A bearing of a pin."""
 
-    kind: Literal["ball", "roller", "needle", "plain"] = Field(description="rolling bodies, or a plain bearing")
+    kind: Literal["ball", "roller", "needle", "plain"] = Field(description="rolling or plain bearing")
     dynamic_rating: Annotated[float, unit("N", gt=0, le=1e12)] | None = Field(
         None, description="basic dynamic load rating C"
     )
@@ -207,7 +207,9 @@ class Bearing(Spec):
     )
     width: Length | None = Field(None, description="plain: width b")
     diameter: Length | None = Field(None, description="plain: diameter d")
-    rolling_bodies: Annotated[int, unit("1", ge=3, le=1000)] | None = Field(None, description="rolling bodies in a row")
+    rolling_bodies: Annotated[int, unit("1", ge=3, le=1000)] | None = Field(
+        None, description="number of rolling elements in a row"
+    )
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
@@ -243,7 +245,7 @@ class Vibration(Spec):
     )
     damping: Coefficient | None = Field(None, description="damping ratio; default: 0.03, assumed")
     allowed_residual: Annotated[float, unit("1", gt=0, le=1e6)] | None = Field(
-        None, description="maximum vibration left in the dwell, deg or mm as the output moves"
+        None, description="maximum residual vibration in the dwell, deg or mm like the output"
     )
 
     @model_validator(mode="after")
@@ -260,7 +262,7 @@ class Roller(Spec):
     inertia: Inertia = Field(0.0, description="moment of inertia of a roller about its axis")
     friction: Coefficient = Field(0.08, description="coefficient of friction of roller and cam")
     bearing_moment: Annotated[float, unit("N m", ge=0, le=1e9)] = Field(
-        0.0, description="moment of friction in the roller's bearing"
+        0.0, description="friction torque of the roller's bearing"
     )
     preload: Annotated[float, unit("N", ge=0, le=1e12)] = Field(
         0.0, description="force between both rollers and their cams at rest, where two rollers run on two cams"

@@ -49,13 +49,13 @@ class VariableSpec(Spec):
         if self.step is not None and self.points is not None:
             raise refused("step and points exclude each other\nomit step or points", "points")
         if self.times is not None and self.points is not None:
-            raise refused("points goes without times\ngive step", "points")
+            raise refused("points cannot be combined with times\ngive step", "points")
         if self.to < self.from_:
-            raise refused(f"the range is empty: from {self.from_:g} is above to {self.to:g}; exchange them", "to")
+            raise refused(f"the range is empty: from {self.from_:g} is above to {self.to:g}\nexchange them", "to")
         if self.log and self.step is not None:
             raise refused("step makes equal steps, log equal ratios\ngive points instead of step, or omit log", "log")
         if self.log and not self.from_ > 0.0:
-            raise refused("equal ratios need a range above 0", "from", "GL108")
+            raise refused("log needs a range above 0", "from", "GL108")
         return self
 
 
@@ -75,7 +75,8 @@ class Sampling(Spec):
         "auto", description="auto: the whole grid where there is one within the budget, else a sample"
     )
     budget: Annotated[float, unit("1", ge=1, le=_MOST_DESIGNS)] | None = Field(
-        None, description="most designs; default 1e8 on a grid, 2^17 sampled (20,000 and 2^12 of a scalar kind)"
+        None,
+        description="maximum number of designs; default 1e8 on a grid, 2^17 sampled (20,000 and 2^12 of a scalar kind)",
     )
     seed: Annotated[int, unit("1", ge=0, le=2**31 - 1)] = Field(1, description="seed of the sample")
 
@@ -84,7 +85,7 @@ class Refine(Spec):
     """Local refinement of a sample."""
 
     steps: Annotated[int, unit("1", ge=0, le=1000)] = Field(
-        40, description="most rounds from each kept design; 0: none"
+        40, description="maximum number of improvement rounds from each kept design; 0: none"
     )
 
 

@@ -83,7 +83,9 @@ def of_sizes(section: Tolerance, sources: Sequence[Scatter]) -> dict[tuple[str, 
     for i, group in enumerate(section.correlated):
         vectors = [key for key in group.sources if kinds.get(key) in ("pin", "gear")]
         if vectors:
-            message = f"{vectors[0]} has a direction, and a register correlates sizes alone\nremove it from this group"
+            message = (
+                f"{vectors[0]} has a direction, but a register can correlate only sizes\nremove it from this group"
+            )
             raise WrongStudy([Fault("GL176", message, ("tolerance", "correlated", i))])
     coordinate_root(section, sources)
     return pairs(section, sources)

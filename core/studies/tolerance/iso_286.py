@@ -150,7 +150,7 @@ def fit_parts(size: float, fit: str) -> tuple[tuple[float, float], tuple[float, 
 def _size(size: float) -> float:
     if not 0 < size <= GREATEST_SIZE:
         raise NoSolution(
-            f"the tables of ISO 286 reach from above 0 to {GREATEST_SIZE:g} mm, not {size:g} mm",
+            f"the tables of ISO 286 cover sizes above 0 up to {GREATEST_SIZE:g} mm, not {size:g} mm",
             fix="give limits instead",
         )
     return size

@@ -203,7 +203,7 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
     if sum(one.coordinates for one in found) > MOST_COORDINATES:
         raise _no(
             "GL175",
-            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two)\nomit those with the smallest "
+            f"more than {MOST_COORDINATES} coordinates (a pin and a gear need two)\nomit those with the smallest "
             "tolerances",
             ("tolerance", "sources"),
         )
@@ -286,14 +286,14 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
     else:
         nominal = number_at(spec, key)
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
-        what = "holds a whole number, which does not vary" if nominal is not None else "is no key with a number"
+        what = "holds a whole number, which does not vary" if nominal is not None else "is not a key with a number"
         near = _near(key, spec) if nominal is None else ""
-        remedy = f"did you mean {near}?" if near else "name a length or an angle of this file"
+        remedy = f"did you mean {near}?" if near else "use a length or an angle of this file"
         raise _no("GL170", f"{named(key)} {what}\n{remedy}", place)
     unit = "mm" if group == "centers" or key in parts.others else unit_at(spec, key)
     if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
         what = "class" if entry.form == "class" else "grades"
-        message = f"{what} takes its width from the length of a part, and {key} is in {unit}\ngive plus_minus or limits"
+        message = f"{what} needs the length of a part, but {key} is in {unit}\ngive plus_minus or limits"
         raise _no("GL173", message, (*place, what))
     lower, upper = _limits(entry, nominal, place)
     return Scatter(key, "center" if group == "centers" else "size", nominal, _law(entry, lower, upper, place), entry)
@@ -324,7 +324,9 @@ def _limits(entry: ToleranceSource, nominal: float, place: Place) -> tuple[float
     if form == "class":
         return limit_deviations(abs(nominal), entry.class_ or "")
     raise _no(
-        "GL171", f"{form} belongs to pins, bearings or gears\ngive plus_minus, limits, class, sigma or measured", place
+        "GL171",
+        f"{form} applies only to pins, bearings or gears\ngive plus_minus, limits, class, sigma or measured",
+        place,
     )
 
 
@@ -332,14 +334,14 @@ def _law(entry: ToleranceSource, lower: float, upper: float, place: Place) -> La
     if entry.form == "measured":
         return Law("fixed", lower, upper, mean=lower)
     if not lower < upper:
-        raise _no("GL171", f"the limits {lower:g} and {upper:g} leave no interval: nothing varies", place)
+        raise _no("GL171", f"the limits {lower:g} and {upper:g} have no width: nothing varies", place)
     normal = normal_between(lower, upper, entry.cp, entry.cpk, entry.shift != "down")
     if entry.form == "sigma":
         normal = Law("normal", lower, upper, 0.0, entry.sigma or 0.0)
     if entry.law == "triangular":
         mode = 0.5 * (lower + upper) if entry.mode is None else entry.mode
         if not lower <= mode <= upper:
-            raise _no("GL171", f"mode {mode:g} lies outside of the limits {lower:g} to {upper:g}", place)
+            raise _no("GL171", f"mode {mode:g} lies outside the limits {lower:g} to {upper:g}", place)
         return Law("triangular", lower, upper, mode=mode)
     if entry.law == "uniform":
         return Law("uniform", lower, upper)

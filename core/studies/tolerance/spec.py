@@ -58,12 +58,12 @@ class ToleranceSource(Spec):
     law: Literal["normal", "uniform", "triangular", "truncated"] = Field(
         "normal", description="law of distribution", json_schema_extra=also("distribution")
     )
-    mode: Deviation | None = Field(None, description="deviation where a triangular law peaks; default the middle")
+    mode: Deviation | None = Field(None, description="deviation at the peak of a triangular law; default: the middle")
     cp: Positive = Field(1.0, description="process capability C_p: limits lie at 3 C_p standard deviations")
     cpk: Positive | None = Field(None, description="capability C_pk of a process off the middle, at most C_p")
-    shift: Literal["up", "down"] | None = Field(None, description="towards which limit the process lies")
+    shift: Literal["up", "down"] | None = Field(None, description="limit towards which the process is shifted")
     play: Literal["contact", "floating"] = Field(
-        "contact", description="whether the pin touches its hole or lies anywhere in it"
+        "contact", description="contact of the pin with its hole: touching, or anywhere in it"
     )
     cost: Positive = Field(1.0, description="cost of this part at IT9, in any unit")
     grades: Annotated[list[Grade], Field(min_length=2, max_length=2)] | None = Field(
@@ -83,9 +83,7 @@ class ToleranceSource(Spec):
         if self.lower is not None and self.upper is None:
             raise refused("lower without upper\ngive both, or plus_minus", code="GL171")
         if not given and self.grades is not None:
-            text = (
-                "grades alone say no size to begin with, from which --allocate chooses\nadd class: js8, or plus_minus"
-            )
+            text = "grades alone give no initial tolerance, which --allocate needs\nadd class: js8, or plus_minus"
             raise refused(text, code="GL171")
         if not given:
             raise refused(f"no limits\ngive one of {', '.join(_SIZES)}", code="GL171")
@@ -103,7 +101,7 @@ class ToleranceSource(Spec):
         for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
             if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
                 raise refused(
-                    f"the limits {pair[0]:g} and {pair[1]:g} leave no interval: the first must be the smaller",
+                    f"the limits {pair[0]:g} and {pair[1]:g} have no width: the first must be the smaller",
                     code="GL171",
                 )
         if self.clearance is not None and self.clearance[0] < 0:
@@ -124,7 +122,7 @@ class ToleranceSource(Spec):
                 f"cpk: {self.cpk:g} (limit >= {self.cp:g}, cp, without shift)\ngive shift: up or down", code="GL172"
             )
         if self.mode is not None and self.law != "triangular":
-            raise refused(f"mode belongs to the triangular law, this one is {self.law}\nomit it", code="GL171")
+            raise refused(f"mode applies only to the triangular law, not to {self.law}\nomit it", code="GL171")
 
 
 class Correlation(Spec):
@@ -132,7 +130,7 @@ class Correlation(Spec):
 
     sources: Annotated[list[str], Field(min_length=2)] = Field(description="keys of `sources`")
     rho: Annotated[float, Field(json_schema_extra={"unit": "1", "minimum": -1, "maximum": 1})] = Field(
-        description="correlation of each two of them (Gaussian copula)"
+        description="correlation of each pair of them (Gaussian copula)"
     )
 
     @model_validator(mode="after")
@@ -165,9 +163,7 @@ class Tolerance(Spec):
     require: list[str] = Field(
         [], description="conditions in addition to the checks, such as back_step_angle <= 20.4 deg"
     )
-    target_yield: Share | None = Field(
-        None, description="share of designs that must be good; below it the command fails"
-    )
+    target_yield: Share | None = Field(None, description="required share of good designs; below it the command fails")
     cost: Cost = Cost.model_construct()
     sobol: bool = Field(False, description="Sobol' indices in the table contributions (--sobol)")
 
@@ -176,7 +172,7 @@ class Tolerance(Spec):
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
                 raise refused(
-                    f"{named(unknown[0])} of correlated is no source\nname keys of `sources`", "correlated", "GL176"
+                    f"{named(unknown[0])} of correlated is not a source\nname keys of `sources`", "correlated", "GL176"
                 )
             if twice := [name for name in group.sources if group.sources.count(name) > 1]:
                 raise refused(
@@ -199,20 +195,20 @@ class Register(Spec):
         None, description="radius at which the output's error is measured; default its reference radius"
     )
     output: str | None = Field(
-        None, description="whose error counts, where there are several outputs; default the first"
+        None, description="output whose error is computed, if there are several; default: the first"
     )
     direction: Annotated[float, unit("deg", ge=-360, le=360)] | None = Field(
         None, description="of an output that is a point: direction in which its error counts; default along x"
     )
     backlash: Distance | dict[str, Distance] | None = Field(
-        None, description="circumferential backlash of each mesh by its name, or one for all"
+        None, description="circumferential backlash of each mesh by its name, or one value for all"
     )
     cam_error: Length | None = Field(None, description="maximum error of a cam's profile, at right angles to it")
     output_inertia: Annotated[float, unit("kg m^2", gt=0)] | None = Field(
-        None, description="moment of inertia of all that turns with the output"
+        None, description="moment of inertia of all parts that turn with the output"
     )
     friction: Annotated[Torque, Field(ge=0)] = Field(0.0, description="friction torque on the output")
-    load: Torque = Field(0.0, description="torque that the machine takes from the output")
+    load: Torque = Field(0.0, description="load torque of the machine on the output")
     stiffness: Annotated[float, unit("N m/rad", gt=0)] | OfShaft | None = Field(
         None, description="of the output shaft, or its sizes; default: rigid"
     )

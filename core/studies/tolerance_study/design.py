@@ -272,7 +272,9 @@ def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
     asked = [name for name in study.varying if name in _limited(made)]
     if not asked:
         raise no(
-            "GL171", "no source moves what the lines of require compare with numbers: nothing to choose by", "require"
+            "GL171",
+            "no source moves what the lines of require compare with numbers: --allocate cannot choose",
+            "require",
         )
     by_grade = [_by_grade(made.sources[i]) for i in places]
     alone = len(asked) == 1 and made.correlation is None
@@ -587,7 +589,7 @@ class ToleranceStudy(Design):
             made.correlation,
         )  # what is wrong with them is said before anything is computed
         if self.spec.tolerance.sobol and made.coordinates > MOST_WITH_INDICES:
-            message = f"Sobol' indices take at most {MOST_WITH_INDICES} coordinates, here are {made.coordinates}"
+            message = f"Sobol' indices are possible for at most {MOST_WITH_INDICES} coordinates, not {made.coordinates}"
             raise no("GL175", message, "sources")
         return made
 
@@ -757,7 +759,7 @@ class ToleranceStudy(Design):
         shown = Shown(100.0 * good.low if short_of else 100.0 * good.value, 100.0 * target, "%", ">=")
         what = "lower bound of the yield" if short_of else "yield"
         fix = self._remedy(good.value, target) if short_of else ""
-        note = "the yield may well be reached: too few samples" if short_of and good.high >= target else ""
+        note = "too few samples to prove the yield, which may be reached" if short_of and good.high >= target else ""
         yield TARGET_YIELD.check(
             "fail" if short_of else "pass", what, good.low, target, shown=shown, aside=aside, fix=fix, note=note
         )
@@ -766,7 +768,7 @@ class ToleranceStudy(Design):
         """More samples where the yield may well be there, else what to tighten."""
         if value == 1.0:
             needed = math.ceil(math.log(0.05) / math.log(target))
-            return f"take --samples {needed}"
+            return f"set --samples {needed}"
         return self._what_to_tighten()
 
     def _what_to_tighten(self) -> str:
@@ -783,7 +785,7 @@ class ToleranceStudy(Design):
             return f"relax the requirement {text}, which fails most"
         rows = self.slopes[name]
         most = max(range(len(rows)), key=lambda i: rows[i].sigma if math.isfinite(rows[i].sigma) else 0.0)
-        return f"tighten {self.problem.sources[most].key}, which adds most to {name}"
+        return f"tighten {self.problem.sources[most].key}, which contributes most to {name}"
 
     def check_no_mechanism(self) -> Iterator[Check]:
         """GL177 where samples do not exist."""

@@ -299,7 +299,7 @@ def problem(spec: Any) -> Problem:
     if asked not in kind.commands or asked in _ABOUT:
         known = ", ".join(one for one in kind.commands if one not in _ABOUT)
         raise NoSolution(
-            f"no samples for the command {asked!r} of {kind.name}", key="tolerance.command", fix=f"take {known}"
+            f"no samples for the command {asked!r} of {kind.name}", key="tolerance.command", fix=f"use {known}"
         )
     try:
         given = Base(data, asked)

@@ -72,7 +72,7 @@ def test_a_path_from_the_root_and_one_from_here(gearlink: Any, tmp_path: Path, m
     ended = gearlink(*line, "--out", "o")
     assert ended.status == 2
     assert "GL116" in ended.err
-    assert "in one folder" in ended.err
+    assert "into one folder" in ended.err
 
 
 class TestLinks:

@@ -100,7 +100,7 @@ def test_keys_in_sections_of_the_file_are_dotted(gearlink: Any) -> None:
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", KINDS)
 def test_sections_lists_and_named_entries_are_yaml_without_their_marks(gearlink: Any, kind: str) -> None:
-    _, _, left_out = gearlink("new", kind).out.partition("# Keys that this file leaves out")
+    _, _, left_out = gearlink("new", kind).out.partition("# Keys that this file omits")
     lines = [line[2:] for line in left_out.splitlines()[1:]]
     read = yaml.safe_load("\n".join(lines)) if lines else {}
     if kind == "three-gear-four-bar":
@@ -165,7 +165,7 @@ def test_a_design_is_named_after_its_file(gearlink: Any, tmp_path: Path) -> None
 def test_every_key_that_is_there_says_unit_meaning_and_whose_choice_it_is(gearlink: Any, kind: str) -> None:
     keys = {key.path: key for key in spec_keys(KINDS[kind])}
     text, path = gearlink("new", kind).out, []
-    for line in text.partition("# Keys that this file leaves out")[0].splitlines():
+    for line in text.partition("# Keys that this file omits")[0].splitlines():
         if not (found := re.fullmatch(r"( *)(\w+):( [^#]*?)? +# (.+)", line)):
             names = path[:1] and not any(known.startswith(f"{path[0]}.") for known in keys)  # of the user's choice
             assert not line or line.lstrip().startswith(("#", "- ")) or (names and line.startswith("  ")), line
@@ -220,7 +220,7 @@ def test_the_narrower_bound_of_a_side_is_named() -> None:
 def test_units_stand_behind_the_keys_and_not_in_the_head_line(gearlink: Any, kind: str) -> None:
     """It had listed sheets/h, which the speeds of most kinds refuse: 1/min is theirs."""
     head, _, keys = gearlink("new", kind).out.partition("\n\n")
-    assert "in the unit named behind it; another unit may be written with the number" in head
+    assert "in the unit named after it; another unit may be written with the number" in head
     assert not re.search(r"\b(mm|deg|min|sheets|kg)\b", head)
     speed = next(line for line in keys.splitlines() if re.match(r"#? ?(input_)?speed: ", line))
     assert ("# sheets/h: " if kind == "swing-gripper" else "# 1/min: ") in speed

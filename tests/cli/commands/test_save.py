@@ -153,7 +153,7 @@ def test_a_rounding_that_leaves_no_mechanism_writes_nothing(gearlink: Any, tmp_p
         "synth", "dwell", DESIGNS / "candy_feed.yaml", "--save", path, "--round", step, "--set", "gears.module=1"
     )
     assert ended.status == 2
-    assert f"rounded to {step} mm there is no such mechanism" in ended.err
+    assert f"rounded to {step} mm the mechanism does not exist" in ended.err
     assert not path.exists()
 
 
@@ -194,7 +194,7 @@ def test_a_step_that_rounds_nothing_is_refused(gearlink: Any, tmp_path: Path, st
 def test_round_without_save_is_refused(gearlink: Any) -> None:
     ended = gearlink("crank", DESIGNS / "ty460_slider_crank.yaml", "--round", "0.01")
     assert ended.status == 2
-    assert "--round goes with --save" in ended.err
+    assert "--round needs --save" in ended.err
 
 
 def test_a_refused_design_writes_nothing(gearlink: Any, tmp_path: Path) -> None:

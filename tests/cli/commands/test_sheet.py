@@ -222,8 +222,8 @@ def test_what_a_design_has_not_is_refused(
             ("drawing", "--scale", "1"),
             "--scale is for drawings of disc cams, of which this cam-gear has none",
         ),
-        ("linked_cams", ("motion", "--scale", "1"), "--scale is for drawings of cams alone"),
-        ("linked_cams", ("drawing", "--scale", "2:1"), "--scale 2:1 is no scale"),
+        ("linked_cams", ("motion", "--scale", "1"), "--scale applies only to drawings of cams"),
+        ("linked_cams", ("drawing", "--scale", "2:1"), "--scale 2:1 is not a scale"),
         ("linked_cams", ("drawing", "--paper", "A4"), "--paper without --scale"),
     ],
 )
@@ -329,11 +329,15 @@ def test_a_plateau_is_sought_at_its_ends_alone() -> None:
 @pytest.mark.parametrize(
     ("name", "asked", "words"),
     [
-        ("ty460", ("motion", "--show", "path:B"), "--show path:B is for the sheet vectors; only motion is drawn"),
+        (
+            "ty460",
+            ("motion", "--show", "path:B"),
+            "--show path:B applies only to the sheet vectors; only motion is drawn",
+        ),
         (
             "ty460",
             ("motion", "timing", "--at", "30"),
-            "--at 30 is for the sheet vectors; only motion, timing are drawn",
+            "--at 30 applies only to the sheet vectors; only motion, timing are drawn",
         ),
         ("ty460", ("--show", "path:Q"), "--show: this mechanism has no point 'Q'; it has B, C"),
         (

@@ -160,9 +160,9 @@ def test_samples_of_a_register_are_the_same_by_whatever_computes(gearlink: Any, 
     ("requirement", "told"),
     [
         ("dwell_crank_angles[5] <= 3 deg", "counted from 0, the last is dwell_crank_angles[1]"),
-        ("back_step_angle[0] <= 3 deg", "take back_step_angle"),
-        ("dwell_swing[0] <= 3 deg", "take dwell_swing"),
-        ("dwell_crank_angles <= 3 deg", "take one of them"),
+        ("back_step_angle[0] <= 3 deg", "use back_step_angle"),
+        ("dwell_swing[0] <= 3 deg", "use dwell_swing"),
+        ("dwell_crank_angles <= 3 deg", "use one of them"),
         ("tolerance_dwell_angle >= 3 deg", "does not apply to the nominal design"),
         ("frame_ratio_interval[0] >= 3", "the nominal design does not give it"),
         ("dwell_swing == 3 deg", "compare it by >= and <="),
@@ -269,7 +269,12 @@ UNKNOWN_NAMES = [
         "it has crank_idler, idler_output",
     ),
     ("candy_feed_tolerances", 'tolerance.sources."gears.x".eccentricity=1', "GL170", "it has crank, idler, output"),
-    ("candy_feed_tolerances", 'tolerance.sources."links.x".plus_minus=1', "GL170", "'links.x' is no key with a number"),
+    (
+        "candy_feed_tolerances",
+        'tolerance.sources."links.x".plus_minus=1',
+        "GL170",
+        "'links.x' is not a key with a number",
+    ),
     ("candy_feed_tolerances", "tolerance.require=[bak_step_angle < 1]", "GL152", "bak_step_angle"),
     ("candy_feed_tolerances", "register.backlash={mesh_9: 1}", "GL112", "no mesh 'mesh_9': there are crank_idler"),
     ("candy_feed_tolerances", "register.at=zone", "GL112", "no position 'zone' here; give dwell or"),
@@ -304,7 +309,7 @@ def test_names_that_the_design_does_not_have_are_refused_by_check_and_batch(
     ("key", "help"),
     [
         ('"links.crnk"', "help: did you mean links.crank?"),
-        ("links.crank", "by the whole path of its key: links.crank,"),
+        ("links.crank", "by the full path of its key: links.crank,"),
     ],
 )
 def test_a_source_that_is_slightly_wrong_is_told_the_right_name(gearlink: Any, spec: Path, key: str, help: str) -> None:
@@ -331,4 +336,4 @@ def test_candidates_are_not_offered_where_there_are_none(gearlink: Any, spec: Pa
         assert "--candidates" not in gearlink(command, "--help").out
     ended = gearlink("loads", designs / "loaded_feed.yaml", "--candidates")
     assert ended.status == 2
-    assert ended.err.startswith("<--candidates>:1:1: error GL115: `loads` has nothing that could be chosen otherwise")
+    assert ended.err.startswith("<--candidates>:1:1: error GL115: `loads` has no values to be chosen")

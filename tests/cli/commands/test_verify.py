@@ -111,7 +111,7 @@ def test_an_off_number_is_shown_and_gives_status_1(gearlink: Any, injected: Path
     assert ended.status == 1
     assert re.search(r"crank that is off \[mm\] +154\.20 +154\.212 +0\.0116 +0\.005 +OFF$", ended.out, re.MULTILINE)
     assert "  crank [mm]" not in ended.out
-    assert ended.out.endswith("1 of 2 numbers met\n")
+    assert ended.out.endswith("1 of 2 numbers within their limit\n")
     result = json.loads(gearlink("verify", "-f", "json").out)
     assert (result["ok"], result["quantities"]["met"]["value"]) == (False, 1)
 
@@ -121,7 +121,7 @@ def test_a_refused_design_is_not_met_and_says_why(gearlink: Any, injected: Path)
     ended = gearlink("verify")
     assert ended.status == 1
     assert "refused: " in ended.out
-    assert "0 of 2 numbers met" in ended.out
+    assert "0 of 2 numbers within their limit" in ended.out
     row = json.loads(gearlink("verify", "-f", "json").out)["tables"]["cases"]["rows"][0]
     assert row[COLUMNS.index("computed")] is None
     assert row[COLUMNS.index("difference")] is None
@@ -132,7 +132,7 @@ def test_a_prefix_chooses_and_shows_every_number(gearlink: Any) -> None:
     assert ended.status == 0
     assert "R. S. Khurmi" in ended.out
     assert re.search(r"path of contact \[mm\] +28\.04 +28\.035 +-0\.0047 +0\.005$", ended.out, re.MULTILINE)
-    assert ended.out.endswith("6 of 6 numbers met\n")
+    assert ended.out.endswith("6 of 6 numbers within their limit\n")
     one = gearlink("verify", "khurmi-12.7", "-f", "csv")
     assert one.out.splitlines()[5].split(",") == COLUMNS
 

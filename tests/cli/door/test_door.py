@@ -197,7 +197,7 @@ class TestValues:
         for _ in range(100_000):
             deep = [deep]
         for value in (loop, deep):
-            with pytest.raises(gearlink.GearlinkError, match="'stroke' holds itself"):
+            with pytest.raises(gearlink.GearlinkError, match="'stroke' contains itself"):
                 gearlink.design(**{**CRANK, "stroke": value})
 
     def test_what_is_no_mapping_no_path_no_command(self) -> None:
@@ -206,7 +206,7 @@ class TestValues:
         for wrong in ("stroke=320", [("stroke", 320)], {3: 320}):
             with pytest.raises(TypeError, match=r"mapping of paths|a path in a design file is text"):
                 gearlink.changed(crank, wrong)
-        with pytest.raises(gearlink.GearlinkError, match="is no path"):
+        with pytest.raises(gearlink.GearlinkError, match="is not a path"):
             gearlink.changed(crank, {"stroke=3": 20})
         with pytest.raises(TypeError, match="a command is text, such as 'crank', not list"):
             gearlink.design(["crank"], **CRANK)  # type: ignore[arg-type]

@@ -149,5 +149,5 @@ def test_another_server_is_no_lack_of_memory(distributed: type[Client]) -> None:
     distributed.answers = MemoryError((3543824036068086856,))
     found = refusal("tcp://there:8787")
     assert (found.code, found.key) == ("GL115", "tcp://there:8787")
-    assert found.message == "what answers at tcp://there:8787 is no Dask scheduler (MemoryError)"
+    assert found.message == "the server at tcp://there:8787 is not a Dask scheduler (MemoryError)"
     assert "dashboard" in found.help

@@ -57,7 +57,7 @@ def test_a_file_in_the_place_of_a_folder_is_told_before_the_study_is_computed(
     for line in (("--plot", "--out", taken), ("--write", taken / "below")):
         ended = gearlink("explore", written(), *line)
         assert ended.status == 2
-        assert f"{taken} is no folder" in ended.err
+        assert f"{taken} is not a folder" in ended.err
 
 
 @pytest.mark.parametrize("other", [("--plot",), ("--write", "kept")])

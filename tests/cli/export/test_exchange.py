@@ -488,7 +488,7 @@ def test_pins_of_a_reducer_are_no_solid_and_have_their_places_in_a_table(
     file = designs / "cycloidal_reducer.yaml"
     refused = gearlink("export", file, "--part", "ring", "--as", "step", "--width", 12, "--out", tmp_path)
     assert refused.status == 2
-    assert "a circle of pins is no solid" in refused.err
+    assert "a circle of pins is not a solid" in refused.err
     made = [
         contour(make(), 0.1, CurveForm.SPLINE) for make in parts.makers(design(worked("cycloidal_reducer"))).values()
     ]
@@ -513,7 +513,7 @@ def test_the_path_of_a_cutter_is_no_solid(name: str) -> None:
     assert [each.part.name for each in made] == ["main_cam", "cutter"]
     asked = Export((FileFormat.STEP,), (), 0.1, CurveForm.SPLINE, Options())
     assert [each.part.name for each in _drawn(FileFormat.STEP, {CurveForm.SPLINE: made}, asked)] == ["main_cam"]
-    with pytest.raises(GearlinkError, match="a path is no solid"):
+    with pytest.raises(GearlinkError, match="a path is not a solid"):
         _drawn(FileFormat.STEP, {CurveForm.SPLINE: made[1:]}, asked)
 
 

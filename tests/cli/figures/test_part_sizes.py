@@ -140,7 +140,7 @@ def test_a_geneva_wheel_has_the_sizes_of_its_triangle(keys: dict[str, Any], side
     assert {f"{n} × {digits(wide)}", f"{n} × R{digits(hollow)}", f"R{digits(bottom)}", "120"} <= shown
     assert f"⌀{2.0 * math.hypot(mouth, 0.5 * wide):.3f}" in shown
     assert cell(figure, "radius of the pin's circle") == pytest.approx(crank, rel=5e-6)
-    assert cell(figure, "radius of the wheel to its slots' mouths") == pytest.approx(mouth, rel=5e-6)
+    assert cell(figure, "radius of the wheel to the mouths of its slots") == pytest.approx(mouth, rel=5e-6)
     assert cell(figure, "axis to the centre of a slot's bottom") == pytest.approx(a - side * crank, rel=5e-6)
     (wheel,), error = outlines(figure), CHORDS / read(figure)[0]
     arc = wheel[np.abs(np.abs(wheel - cmath.rect(a, half)) - hollow) < 1e-6]

@@ -71,7 +71,7 @@ def test_marks_are_explained_and_numbers_stand_free_of_their_axes() -> None:
     figure = draw("explore", Exploration(StudySpec.model_validate_json(json.dumps(keys))))
     scatter, parallel = figure.axes
     words = [text.get_text() for text in scatter.get_legend().get_texts()]
-    assert words[:2] == ["satisfies everything", "kept: one design a box of the front"]
+    assert words[:2] == ["satisfies everything", "kept: one design per box of the front"]
     upright = [line for line in parallel.get_lines() if len(set(line.get_xdata())) == 1]
     ends = {text.get_position() for text in parallel.texts}
     assert len(upright) == 4

@@ -64,7 +64,7 @@ def test_paper_that_is_too_small_names_one_that_is_not(tmp_path: Path) -> None:
         drawing(made, 0, Scale(0.8, "A4"))
     with pytest.raises(DesignFileError) as refused:
         drawing(made, 0, Scale(0.8, "A4"))
-    assert "take A3" in refused.value.diagnostics[0].message
+    assert "use A3" in refused.value.diagnostics[0].message
     with pytest.raises(DesignFileError) as refused:
         drawing(made, 0, Scale(0.1, "A0"))
     assert "not even A0" in refused.value.diagnostics[0].message

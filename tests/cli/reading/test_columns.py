@@ -32,7 +32,7 @@ def test_delimiter_and_decimal_sign_are_found(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "line", "column", "words"),
     [
-        ("x;s\n0;0\n0,5;0,x5\n", 3, 5, "'0,x5' is no number"),
+        ("x;s\n0;0\n0,5;0,x5\n", 3, 5, "'0,x5' is not a number"),
         ("0,0\n1,1,1\n", 2, 5, "3 numbers in a row"),
         ("words\nalone\n", 1, 1, "no row of numbers"),
     ],

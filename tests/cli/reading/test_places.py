@@ -105,7 +105,7 @@ def test_a_link_to_what_is_no_design_is_not_read(gearlink: Any, here: Path) -> N
     for line in (("check", "files"), ("batch", "files"), ("crank", "files/c.yml")):
         ended = gearlink(*line)
         assert ended.status == 2
-        assert "which is no design file (.yaml, .yml)" in " ".join((ended.out + ended.err).split())
+        assert "which is not a design file (.yaml, .yml)" in " ".join((ended.out + ended.err).split())
         assert "token" not in ended.out + ended.err
     assert gearlink("crank", "files/d.yaml").status == 0
 
@@ -148,7 +148,7 @@ def test_a_base_design_is_a_design_file(gearlink: Any, here: Path) -> None:
     )
     ended = gearlink("explore", "study.yaml")
     assert ended.status == 2
-    assert "study.yaml:2:1: error GL101: the base design secret.txt is no design file (.yaml, .yml)" in ended.err
+    assert "study.yaml:2:1: error GL101: the base design secret.txt is not a design file (.yaml, .yml)" in ended.err
     assert "token" not in ended.err
 
 

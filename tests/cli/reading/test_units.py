@@ -159,7 +159,7 @@ def test_loads_and_set_take_units() -> None:
     ("text", "code", "key", "words"),
     [
         ("stroke: 4.5 kg\nrod: 520", "GL181", "stroke", "kg is a mass, stroke is in mm"),
-        ("stroke: 12 DP\nrod: 520", "GL181", "stroke", "goes with module"),
+        ("stroke: 12 DP\nrod: 520", "GL181", "stroke", "applies only to module"),
         ("stroke: 310\nrod: 5 inh", "GL180", "rod", "no unit 'inh'"),
         ("stroke: 310\nrod: 520\ninput_speed: 5 mm", "GL181", "input_speed", "mm is a length"),
         ("stroke: 310\nrod: 520\nloads: {speed: 60, links: {slider: {mass: 3 stones}}}", "GL180",

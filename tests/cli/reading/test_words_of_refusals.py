@@ -71,7 +71,7 @@ def test_a_set_beside_a_key_whose_refusal_does_not_name_it_leaves_the_file_its_p
         (
             "loads loaded_feed",
             "loads.speed=0",
-            "no loads of motion at a speed of 0 1/min",
+            "no inertia forces at a speed of 0 1/min",
         ),
         (
             "loads loaded_feed",

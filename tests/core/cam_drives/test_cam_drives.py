@@ -200,7 +200,7 @@ def test_refusals() -> None:
         (GEAR, {"motion": [{"to": 300.0, "output": 360.0}]}, "required 360 deg"),
         (GEAR, {"motion": [{"to": 200.0}, {"to": 100.0}, {"to": 360.0, "output": 360.0}]}, "ascend"),
         (CAMS, {"path": {}}, "harmonics"),
-        (CAMS, {"path": {"harmonics": {"x": [[0.5, 1.0, 0.0]], "y": [[1, 1.0, 0.0]]}}}, "whole one"),
+        (CAMS, {"path": {"harmonics": {"x": [[0.5, 1.0, 0.0]], "y": [[1, 1.0, 0.0]]}}}, "whole number"),
     ):
         with pytest.raises(ValueError, match=words):
             design(data, **keys)

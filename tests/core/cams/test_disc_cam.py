@@ -198,4 +198,4 @@ def test_a_cam_that_touches_its_shaft_says_so_without_noise() -> None:
     cam = SimpleNamespace(name="main cam", min_radius=40.0 - 1.421e-14)
     (check,) = hub_checks(SHAFT_CLEARANCE, [cam], 40.0, lambda missing: f"{missing:g} mm")
     assert (check.status, check.value) == ("fail", 0.0)
-    assert check.message.startswith("main cam to its shaft")
+    assert check.message.startswith("distance of the main cam from its shaft")

@@ -339,7 +339,7 @@ def test_rounding_past_the_end_is_no_error() -> None:
         ({"quintic": True}, "not one number"),
         ({"septic": 0.42}, "3/7 to 4/7"),
         ({"scca": [0.5, 0.5]}, "list of 4 numbers"),
-        ({"scca": [0.5, 0.5, 0.5, 0.0]}, "change one by -0.5"),
+        ({"scca": [0.5, 0.5, 0.5, 0.0]}, "change one of them by -0.5"),
         ({"scca": [0.7, -0.2, 0.5, 0.0]}, "negative"),
         ({"scca": [0.0, 0.0, 0.0, 1.0]}, "no time to accelerate"),
         ({"sextic": 0.5}, "scca, quintic and septic"),

@@ -279,10 +279,10 @@ def test_coupler_joint_of_a_drag_link() -> None:
     [
         (RING, {"gears__rim": 77.5}, "limit > 77.5 mm, the root radius of the ring gear"),
         (FIXED_RING, {"gears__rim": 60.0}, "the root radius"),
-        (FIXED_SUN, {"gears__rim": 90.0}, "rim goes with a ring gear"),
-        (IDLER, {"gears__rim": 90.0}, "rim goes with a ring gear"),
-        (FIXED_SUN, {"shafts__O_radius": 5.0}, "O_radius goes with an idler"),
-        ("mutilated_gear_press", {"links": None, "shafts__D_radius": 5.0}, "D_radius goes with the four-bar"),
+        (FIXED_SUN, {"gears__rim": 90.0}, "rim applies only to a ring gear"),
+        (IDLER, {"gears__rim": 90.0}, "rim applies only to a ring gear"),
+        (FIXED_SUN, {"shafts__O_radius": 5.0}, "O_radius applies only with an idler"),
+        ("mutilated_gear_press", {"links": None, "shafts__D_radius": 5.0}, "D_radius applies only with the four-bar"),
         (RING, {"shafts__E_radius": 5.0}, "Extra inputs"),
     ],
 )
@@ -358,7 +358,7 @@ def test_a_crank_gear_that_stays_within_the_output_ring_needs_no_plane_of_its_ow
     (near,) = design(train, limits__gear_gap=21.5).check("gear-collision")
     (through,) = design("ring_feed", command="synth dwell").check("gear-collision")
     assert near.status == through.status == "warn"
-    assert "planes of their own" in through.fix
+    assert "separate planes" in through.fix
 
 
 SEATS = {

@@ -168,7 +168,7 @@ def test_a_swing_that_is_too_wide_has_a_limit() -> None:
     with pytest.raises(NoSolution) as refused:
         _ = swing(angle=140.0, quick_return_ratio=1.3, slow_stroke="opposite", frame=120.0).linkage
     assert refused.value.message.startswith("swing: 140 deg (limit < 133 deg with strokes of 203.5 and 156.5 deg")
-    assert refused.value.fix == "take slow_stroke: same"
+    assert refused.value.fix == "set slow_stroke to same"
 
 
 def test_what_is_refused_does_not_exist() -> None:
@@ -233,7 +233,7 @@ def test_three_pairs_to_forty_digits() -> None:
     ("pairs", "words"),
     [
         ([[40.0, 100.0], [110.0, 140.0], [180.0, 180.0]], "collinear at pair 3"),
-        ([[40.0, 50.0], [40.0, 50.0], [160.0, 110.0]], "two of them are alike"),
+        ([[40.0, 50.0], [40.0, 50.0], [160.0, 110.0]], "two of them are equal"),
         ([[40.0, 40.0], [90.0, 90.0], [160.0, 160.0]], "no linkage"),
         ([[10.0, 100.0], [120.0, 20.0], [200.0, 90.0]], "different assemblies"),
     ],
@@ -283,7 +283,7 @@ def test_pairs_between_which_the_linkage_opens(pairs: list[list[float]]) -> None
     made = design(FUNCTION, command="synth function", function__pairs=pairs)
     report = made.report("synth function")
     assert [(check.code, check.status) for check in report.checks] == [("GL330", "warn")]
-    assert "opens between the pairs" in report.checks[0].message
+    assert "does not close between the pairs" in report.checks[0].message
     assert made.crank_length > 0.0
     with pytest.raises(NoSolution) as refused:
         made.table("motion")

@@ -159,9 +159,9 @@ def test_the_sharpest_convex_place_is_warned_of() -> None:
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"closure": "groove"}, "groove goes with a roller"),
+        ({"closure": "groove"}, "groove applies only to a roller"),
         ({"cam": {"prime_radius": 50}}, "give cam.base_radius instead"),
-        ({"errors": {"roller_radius": 0.01}}, "roller_radius goes with a roller"),
+        ({"errors": {"roller_radius": 0.01}}, "roller_radius applies only to a roller"),
         ({"loads": {"roller": {"width": 10.0}}}, "a knife edge has no contact pressure"),
         ({"loads": {"material": {"allowed_pressure": 900.0}}}, "a knife edge has no contact pressure"),
         ({"cam": {"base_radius": 8.0}}, r"limit < 8 mm, cam.base_radius"),

@@ -228,7 +228,7 @@ def test_a_roller_that_changes_walls_is_told_what_holds_it() -> None:
     design = loads(**quick, spring=None, follower=follower)
     (found,) = design.check("load-reversal")
     assert found.what.startswith("the roller changes walls 2 times")
-    assert found.fix == "give spring: {preload: N, rate: N/mm}, which holds the roller on one wall"
+    assert found.fix == "give spring: {preload: N, rate: N/mm}, which keeps the roller on one wall"
     strong = loads(**quick, follower=follower, speed=100)
     assert [check.status for check in strong.check("load-reversal")] == ["pass"]
 

@@ -440,13 +440,13 @@ def test_a_check_that_no_array_form_knows_is_judged_by_the_class(
             {"define": {"x": "crank_idler.tip_radius"}, "minimize": {"x": 1}},
             ("define", "x"),
             "crank_idler.tip_radius is a list of 2",
-            "take one of them, crank_idler.tip_radius[0]; counted from 0: [0] crank, [1] idler",
+            "use one of them, crank_idler.tip_radius[0]; counted from 0: [0] crank, [1] idler",
         ),
         (
             {"define": {"x": "frame_length[0]"}, "minimize": {"x": 1}},
             ("define", "x"),
-            "frame_length is no list: it has no entry 0",
-            "take frame_length",
+            "frame_length is not a list: it has no entry 0",
+            "use frame_length",
         ),
         (
             {"where": ["crank_idler.tip_radius[-1] > 9"]},

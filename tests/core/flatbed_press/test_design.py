@@ -315,7 +315,7 @@ def test_commands_without_their_section(command, key):
 
 @pytest.mark.parametrize("return_law", ["half-cycloidal", "velocity-345", {"quintic": 0.5}])
 def test_return_wants_a_law_from_rest_to_rest(return_law):
-    with pytest.raises(NoSolution, match="rest-to-rest") as refusal:
+    with pytest.raises(NoSolution, match="a law from rest to rest") as refusal:
         _ = press(cam=CAM | {"return_law": return_law}).follower
     assert refusal.value.key == "cam.return_law"
 
@@ -511,7 +511,7 @@ def test_a_stroke_that_no_cam_can_bear_fails_without_the_cam_s_own_command(strok
     [
         ({"transition_end": 100.0}, "the transition ends at cam angle 100 deg, the synchronous zone at 116.5"),
         ({"return_angle": 290.0}, "after the next sheet begins"),
-        ({"return_law": "half-cycloidal"}, "rest-to-rest"),
+        ({"return_law": "half-cycloidal"}, "a law from rest to rest"),
     ],
 )
 def test_chains_and_zone_are_shown_though_the_cam_is_impossible(command, cam, words):

@@ -120,7 +120,7 @@ def test_checks_and_refusals() -> None:
     assert [each.status for each in few if "pinion_rack" in each.message] == ["fail"]
     for keys, words in (
         ({"cylinder__gear_ratio": 2.0}, "omit gear_ratio"),
-        ({"bed__pinion": None, "bed__rack_teeth": [30, 30]}, "rack_teeth goes with pinion"),
+        ({"bed__pinion": None, "bed__rack_teeth": [30, 30]}, "rack_teeth needs pinion"),
         ({"loads": {"pinion_radius": 90.0}}, "omit pinion_radius"),
     ):
         with pytest.raises(ValueError, match=words):

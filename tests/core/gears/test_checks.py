@@ -88,7 +88,7 @@ def test_pointed_tip_fails_with_a_thickness_below_nothing():
     check = checks("tip-thickness", pair_of((12, 60), (1.2, 0.0)))[0]
     assert (check.code, check.status) == ("GL202", "fail")
     assert check.value < 0.0
-    assert "lower its profile shift" in check.fix
+    assert "reduce its profile shift" in check.fix
 
 
 @pytest.mark.parametrize(("limit", "below"), [(1.1, ("warn", "fail")), (1.2, ("pass", "warn"))])

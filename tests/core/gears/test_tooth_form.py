@@ -124,17 +124,17 @@ def test_no_pressure_angle_divides_by_nothing(angle: float) -> None:
     links = {"coupler": 130, "rocker": 135, "frame": 132}
     made = design({"kind": "two-gear-four-bar", "gears": gears, "links": links})
     (check,) = made.check("involute-interference")
-    assert (check.status, "take a larger pressure angle" in check.fix) == ("fail", True)
+    assert (check.status, "use a larger pressure angle" in check.fix) == ("fail", True)
 
 
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"teeth": [3, -63], "profile_shift": [-0.685, 0.37]}, "raise its profile shift or take more teeth"),
-        ({"teeth": [12, 60], "profile_shift": [1.2, 0]}, "lower its profile shift or its addendum"),
+        ({"teeth": [3, -63], "profile_shift": [-0.685, 0.37]}, "raise its profile shift or use more teeth"),
+        ({"teeth": [12, 60], "profile_shift": [1.2, 0]}, "reduce its profile shift or its addendum"),
         (
             {"teeth": [12, 12], "profile_shift": [2, 2], "addendum": 0.3, "clearance": 0.1},
-            "lower the sum of the profile shifts",
+            "reduce the sum of the profile shifts",
         ),
         ({"teeth": [900, 900], "profile_shift": [-2.2, 2.2], "addendum": 0.1}, "nearer to 0"),
     ],
@@ -161,6 +161,6 @@ def test_each_code_says_what_it_judges(name: str) -> None:
     found = [each for check in made.outline("gear").checks for each in made.check(check)]
     formed = [each.message for each in found if each.code == "GL212"]
     assert formed
-    assert all("smallest of height, thickness and space" in message for message in formed)
+    assert all("minimum of height, thickness and space width" in message for message in formed)
     said = {(each.code, each.what) for each in found}
     assert len({subject for _, subject in said}) == len(said), "no two codes begin alike"

@@ -53,7 +53,7 @@ def test_remedy_makes_the_check_pass(code: str, base: str, keys: dict[str, Any])
     ("data", "words"),
     [
         ({"zones": [{"from": 10, "to": 10, "value": 5}]}, "empty"),
-        ({"table": [[0, 1], [90, 3], [360, 2]]}, "ends with the value"),
+        ({"table": [[0, 1], [90, 3], [360, 2]]}, "must end with its first value"),
         ({"table": [[0, 1], [90, 3], [80, 2]]}, "ascend"),
         ({"table": [[0, 1], [400, 2]]}, "one revolution"),
     ],

@@ -322,7 +322,7 @@ def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> Non
     )
     (loss,) = [f for f in apart.check("contact-loss") if f.value == apart.least_contact_force]
     assert (loss.code, loss.status) == ("GL608", "fail")
-    assert "contact force lacking: the roller leaves its cam" in loss.message
+    assert "missing contact force: the roller leaves its cam" in loss.message
     ways = list(swing_load_checks.candidates_of_loads(apart, "contact-loss"))
     arm, reserve, mass = ("slider.middle_angle", 73.18), apart.spec.unloader.reserve, apart.spec.slider.mass
     assert ways[:3] == [

@@ -110,7 +110,7 @@ def test_a_relation_within_one_member_asks_for_another_motion_of_it() -> None:
     found = machine(members, require=["feed.rise_end before feed.return_start by 200", "gripper.rise_end before 10"])
     own, other = found.check("timing-relation")
     assert (own.status, own.fix) == ("fail", "change the motion of feed")
-    assert own.note == ("both events are of one member: no phase changes the margin",)
+    assert own.note == ("both events belong to one member: no phase changes the margin",)
     assert other.status == "pass"
 
 
@@ -153,7 +153,7 @@ def test_where_no_phases_will_do_the_relations_that_limit_each_other_are_named()
     failing = [each for each in found.check("timing-relation") if each.status == "fail"]
     assert len(failing) == 1
     assert failing[0].value == pytest.approx(-5.0, abs=1e-9)  # a dwell of 80 deg holds a rise of 50 with 15 to spare
-    assert "no phases do better" in failing[0].note[0]
+    assert "no phases give a larger margin" in failing[0].note[0]
 
 
 def test_a_dial_of_several_turns() -> None:

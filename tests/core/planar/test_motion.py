@@ -318,6 +318,6 @@ def test_certified_steps_never_reach_beyond_a_dead_centre() -> None:
 def test_a_motion_of_too_many_steps_is_refused_as_such(monkeypatch: pytest.MonkeyPatch) -> None:
     """The bed chain takes 320; a module of 4000 mm would take 30 times as many, and a minute."""
     monkeypatch.setattr(follow, "_MOST_STEPS", 100)
-    with pytest.raises(NoSolution, match="too fast to follow: 100 steps") as caught:
+    with pytest.raises(NoSolution, match="too fast to be computed: 100 steps") as caught:
         load(DESIGNS / "planar_bed_chain.yaml").raw("closure_error")
     assert caught.value.key == "meshes"

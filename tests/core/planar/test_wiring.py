@@ -83,7 +83,7 @@ def test_a_link_that_one_pin_holds_is_named(crank: Any) -> None:
         (WATT, "links/arm", ["E", 3, 120], "GL111", "links.arm[1]", "name its points"),
         (WATT, "links/arm", ["E", "E", 120], "GL111", "links.arm[1]", "name two"),
         (WATT, "links/free", ["X", "Y", 120], "GL106", "start.free", "no start"),
-        (WATT, "links/input", ["E", "Z", 10], "GL111", "links.input", "a meaning of its own"),
+        (WATT, "links/input", ["E", "Z", 10], "GL111", "links.input", "is reserved"),
         (WATT, "outputs", ["output", "output"], "GL111", "outputs[1]", "twice"),
         (WATT, "shafts", {"X_radius": 3}, "GL111", "shafts.X_radius", "point of the frame"),
         (WATT, "range", {"start": 5, "end": 5}, "GL111", "range.end", "ends before it starts"),
@@ -111,10 +111,10 @@ def test_a_link_that_hangs_on_nothing() -> None:
     file = changed(WATT, "links/free", ["X", "Y", 120])
     code, key, words = refusal({**file, "start": {**file["start"], "free": 0}})
     assert (code, key) == ("GL111", "links.free")
-    assert "hangs on nothing" in words
+    assert "is not connected" in words
 
 
 def test_a_start_is_no_size_that_scatters() -> None:
     code, _, words = refusal({**WATT, "tolerance": {"sources": {"start.crank": {"plus_minus": 1}}}})
     assert code == "GL170"
-    assert "no size of a part" in words
+    assert "not a size of a part" in words

@@ -73,7 +73,7 @@ def test_a_roller_that_moves_the_end_of_its_profile_is_not_named() -> None:
     """Outside of the transition zone the minimum curvature radius is another one with each roller."""
     keys = {"swing": 171.9, "drive__rocker": 136.6, "shaft__natural_frequency": 64.04}
     check = found("wide_swing_slider_drive", "swing", "cam-undercut", **keys)
-    assert (check.status, check.fix) == ("warn", "take a smaller roller")
+    assert (check.status, check.fix) == ("warn", "use a smaller roller")
 
 
 @pytest.mark.slow

@@ -229,7 +229,7 @@ def test_extremes_against_a_dense_grid() -> None:
 
 
 def test_a_dead_centre_is_told_with_the_range_that_is_free() -> None:
-    with pytest.raises(NoSolution, match=r"dead centre at input angle .* let the input swing between") as refused:
+    with pytest.raises(NoSolution, match=r"dead centre at input angle .* let the input oscillate between") as refused:
         _ = six_bar(FOLLOWED, links__coupler_2=90.0).period_turns
     words = str(refused.value).split("between ")[1].split(" deg")[0]
     low, high = (float(word) for word in words.split(" and "))
@@ -264,7 +264,7 @@ def test_any_two_trains(lengths: Any, first: Any, one: float, other: float, asse
 
 
 def test_trains_that_tie_the_same_are_refused() -> None:
-    with pytest.raises(NoSolution, match="tie the same"):
+    with pytest.raises(NoSolution, match="couple the same"):
         reduced([train_relation(1, (20, 30)), train_relation(1, (40, 60))])
     assert sum(train_relation(2, (20, -55, 31))) == 0
 
@@ -367,6 +367,6 @@ def test_the_words_of_assembly_are_those_of_the_linkage(left_out: tuple[str, str
     first, second = (ahead[name] for name in left_out)
     assert math.copysign(1.0, math.sin(first - second)) == assembly
     words = GearedSixBarSpec.model_fields["assembly"].description or ""
-    assert "on the way from A to F (the output E->F" in words
-    assert "the first points left of the second; -1: right" in words
+    assert "both directed from A to F (the output E->F" in words
+    assert "the first points to the left of the second; -1: to the right" in words
     assert SixStart.model_fields["output"].description == "direction F->E"

@@ -127,7 +127,7 @@ def test_extremes_over_the_cylinder_angle_are_those_over_the_cam_angle(fingers: 
 
 def test_an_arm_that_returns_as_fast_as_the_cylinder_turns_has_no_cam_of_its_fingers() -> None:
     design = gripper(phases={"accelerate": 100, "constant": 12, "decelerate": 50, "far_dwell": 8, "return": 60})
-    with pytest.raises(NoSolution, match="returns as fast as the cam of its fingers turns, at cylinder angle"):
+    with pytest.raises(NoSolution, match="returns as fast as the cam of the fingers turns, at cylinder angle"):
         design.check("cam-undercut")
     slow = {"accelerate": 100, "constant": 12, "decelerate": 50, "far_dwell": 8, "return": 150}
     assert gripper(phases=slow).fingers.cam.max_pressure_angle.value > 0.0

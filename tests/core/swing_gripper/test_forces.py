@@ -189,7 +189,7 @@ def test_a_spring_that_pushes_is_refused() -> None:
 
 def test_rollers_on_one_side_are_refused() -> None:
     with pytest.raises(
-        NoSolution, match="both rollers lie on the same side of the cam: a spring that closes one lifts the"
+        NoSolution, match="both rollers lie on the same side of the cam: a spring that presses one lifts the"
     ) as refused:
         _ = machine(cam__return_roller__angle=20.0).closure.lift_sense
     assert refused.value.key == "cam.return_roller.angle"

@@ -189,9 +189,9 @@ def test_a_law_with_a_jump_inside_is_told() -> None:
 @pytest.mark.parametrize(
     ("laws", "key", "words"),
     [
-        ({"accelerate": "cycloidal"}, "laws.accelerate", "take velocity-345 or half-cycloidal"),
+        ({"accelerate": "cycloidal"}, "laws.accelerate", "use velocity-345 or half-cycloidal"),
         ({"decelerate": "modified-sine"}, "laws.decelerate", "rest-to-speed"),
-        ({"return_": "half-cycloidal"}, "laws.return", "take cycloidal or modified-sine"),
+        ({"return_": "half-cycloidal"}, "laws.return", "use cycloidal or modified-sine"),
         ({"return_": "simple-harmonic"}, "laws.return", "acceleration of simple-harmonic is not zero at its ends"),
     ],
 )

@@ -299,7 +299,7 @@ def test_collision_remedies_repair_the_design(name, limit):
     (check,) = design(gears=gears, links=links, limits=limits).check("gear-collision")
     assert check.status == "fail"
     longer = float(re.search(r"frame minus crank by ([\d.]+) mm", check.fix)[1])
-    teeth = int(re.search(r"take (\d+) (?:tooth|teeth) less", check.fix)[1])
+    teeth = int(re.search(r"use (\d+) (?:tooth|teeth) fewer", check.fix)[1])
     repaired = (
         {"gears": gears, "links": links | {"crank": links["crank"] - longer / 2, "frame": links["frame"] + longer / 2}},
         {"gears": gears | {"output": gears["output"] - teeth}, "links": links},

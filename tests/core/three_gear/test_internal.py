@@ -305,10 +305,10 @@ def test_refusals_name_key_and_limit(keys: dict[str, Any], key: str, words: str)
     ("keys", "words"),
     [
         ({"gears__output": 0}, "not 0"),
-        ({"gears__output": -36}, "does not take an idler"),
+        ({"gears__output": -36}, "does not fit into a ring gear"),
         ({"gears__rim": 55}, r"rim: 55 mm \(limit > 60\.25 mm"),
-        ({"gears__output": 118, "gears__rim": 70}, "goes with a ring gear"),
-        ({"gears__idler": None, "gears__i3": -0.5, "gears__crank": 118}, "i3 goes with"),
+        ({"gears__output": 118, "gears__rim": 70}, "applies only to a ring gear"),
+        ({"gears__idler": None, "gears__i3": -0.5, "gears__crank": 118}, "i3 applies only to"),
     ],
 )
 def test_wrong_files(keys: dict[str, Any], words: str) -> None:

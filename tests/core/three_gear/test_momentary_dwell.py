@@ -188,7 +188,7 @@ def test_refuses_a_crank_that_would_not_turn():
 
 
 def test_refuses_gears_without_any_crank():
-    with pytest.raises(NoSolution, match="take a larger idler or an output gear not smaller"):
+    with pytest.raises(NoSolution, match="use a larger idler or an output gear not smaller"):
         momentary_linkage(50.0, 1.0, 10.0, 30.0)
 
 

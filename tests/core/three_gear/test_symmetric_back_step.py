@@ -143,7 +143,7 @@ def test_limits_of_the_dwell_angle_are_approached():
 
 
 def test_refuses_a_dwell_angle_out_of_reach():
-    with pytest.raises(NoSolution, match=r"below 360 \(1 - i3\)/\(2 - i3\) = 240 deg.*take -i3 above 4"):
+    with pytest.raises(NoSolution, match=r"below 360 \(1 - i3\)/\(2 - i3\) = 240 deg.*use -i3 above 4"):
         crank_angle_for_dwell(-1.0, math.radians(300.0))
     with pytest.raises(NoSolution, match=r"reduce dwell.angle$"):
         crank_angle_for_dwell(-1.0, math.radians(400.0))

@@ -335,7 +335,7 @@ def test_dwell_angle_below_its_limit(idler, limit):
     with pytest.raises(NoSolution, match=r"dwell angle: .*below 360") as refusal:
         beyond.report("synth dwell")
     assert refusal.value.key == "dwell.angle"
-    needed = float(re.search(r"take -i3 above ([\d.]+)", str(refusal.value))[1])
+    needed = float(re.search(r"use -i3 above ([\d.]+)", str(refusal.value))[1])
     more = math.floor(40.0 * needed) + 1
     assert value(design("synth dwell", gears=EQUAL | {"idler": more}, dwell={"angle": limit}), "frame_ratio") > 1.0
 
@@ -370,7 +370,7 @@ def test_speeds_beyond_a_given_crank(crank, least, way):
 
     with pytest.raises(NoSolution, match="min/max of the output speed") as refusal:
         made(least).report("synth variable-speed")
-    named = float(re.search(rf"speed.min to at {way} ([-\d.]+), or take a", refusal.value.fix)[1])
+    named = float(re.search(rf"speed.min to at {way} ([-\d.]+), or use a", refusal.value.fix)[1])
     assert value(made(named), "speed_ratio_min") / value(made(named), "speed_ratio_max") == pytest.approx(
         named / 70.0, rel=1e-11
     )
@@ -474,12 +474,12 @@ def test_idler_that_is_named_keeps_the_gears_apart(task, idler, limit):
     sections = sections | {"limits": {"gear_gap": limit}}
     (check,) = design(synth, **with_idler(sections, idler)).check("gear-collision")
     assert (check.code, check.status) == ("GL301", "fail")
-    named = int(re.search(r"take an idler of (\d+) teeth or more", check.fix)[1])
+    named = int(re.search(r"use an idler of (\d+) teeth or more", check.fix)[1])
     for more in (named, named + 1, named + 10, 400):
         assert [c.status for c in design(synth, **with_idler(sections, more)).check("gear-collision")] == ["pass"]
     (last,) = design(synth, **with_idler(sections, named - 1)).check("gear-collision")
     assert last.status == "fail"
-    assert f"take an idler of {named} teeth" in last.fix
+    assert f"use an idler of {named} teeth" in last.fix
 
 
 @pytest.mark.parametrize("gears", [ANY | {"idler": 20}, {"module": 2.5, "crank": 40, "idler": 20, "output": 20}])

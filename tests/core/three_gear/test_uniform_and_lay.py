@@ -130,7 +130,7 @@ def test_feed_by_step() -> None:
     assert refused.value.key == "feed.lay.distance"
     back = design("candy_feed", command="synth dwell", input_speed=100.0,
                   feed={"radius": 40.0, "lay": {"distance": 20.0, "speed": 470.0}})  # fmt: skip
-    with pytest.raises(NoSolution, match="goes back"):
+    with pytest.raises(NoSolution, match="moves backwards"):
         back.lay_speed  # noqa: B018
 
 

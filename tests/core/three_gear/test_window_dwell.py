@@ -181,9 +181,9 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("i3", "window", "tolerance", "words"),
         [
-            (-0.5, 300.0, 100.0, "or take -i3 of at least 1.001 "),
-            (-0.6, 265.0, 50.0, "or take -i3 of at least 0.8312 "),
-            (-0.2, 218.0, 20.0, "or take -i3 of at least 0.2642 "),
+            (-0.5, 300.0, 100.0, "or use -i3 of at least 1.001 "),
+            (-0.6, 265.0, 50.0, "or use -i3 of at least 0.8312 "),
+            (-0.2, 218.0, 20.0, "or use -i3 of at least 0.2642 "),
             (-3.0, 218.0, 20.0, "-i3 of at most 1.043 "),
         ],
     )

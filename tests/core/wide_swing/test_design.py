@@ -243,9 +243,9 @@ class TestCombined:
     def test_no_cam_of_even_rotation_beside_a_drive(self) -> None:
         assert driven().outline("cam").tables == ("main_cam",)
         for name in ("phase_angle", "start_radius_estimate"):
-            with pytest.raises(NoSolution, match="leave out drive"):
+            with pytest.raises(NoSolution, match="omit drive"):
                 driven().quantity(name)
-        with pytest.raises(NoSolution, match="leave out drive"):
+        with pytest.raises(NoSolution, match="omit drive"):
             driven().table("return_cam")
 
     def test_power_peak_with_a_slider_is_that_of_all_that_moves(self) -> None:

@@ -88,7 +88,7 @@ def test_gears_between_the_shafts() -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"layout": "twin-cam"}, "belongs to layout: twin-cam-parallel"),
+        ({"layout": "twin-cam"}, "applies only to layout: twin-cam-parallel"),
         ({"cam": {"second": None}}, "second"),
     ],
 )

@@ -111,7 +111,7 @@ def _page(needed: tuple[float, float], scale: Scale) -> tuple[float, float]:
         if width <= page[0] and height <= page[1]:
             return page
     fits = [name for name, (a, b) in PAPERS.items() if min(width, height) <= a and max(width, height) <= b]
-    remedy = f"take {fits[0]}" if fits else "reduce the scale: not even A0 holds it"
+    remedy = f"use {fits[0]}" if fits else "reduce the scale: not even A0 holds it"
     text = f"at {scale.words} the drawing takes {width:.0f} x {height:.0f} mm with its margin, more than {scale.paper}"
     raise DesignFileError([Diagnostic("GL115", f"{text}: {remedy}", "<command line>", key="--paper")])
 

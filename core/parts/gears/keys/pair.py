@@ -18,7 +18,7 @@ class PairKeys(ToothKeys):
     module: Length = Field(description="module; of helical gears the normal one")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
     profile_shift: TwoShifts | None = Field(
-        None, description="profile shift coefficients of gear 1 and 2; what the centre distance leaves is backlash"
+        None, description="profile shift coefficients of gear 1 and 2; the rest of the centre distance is backlash"
     )
     tip_shortening: Annotated[Any, Deferred("parts.gears.keys.types:TipShortening")] | None = Field(
         None,
@@ -42,10 +42,10 @@ class PairKeys(ToothKeys):
         description="allowances of the tooth thickness in the normal section: a series of DIN 3967, or limits in mm",
     )
     center_distance_allowance: Literal["js7"] | Length | None = Field(
-        None, description="plus and minus of the centre distance: js7, or a number in mm"
+        None, description="allowance +- of the centre distance: js7, or a number in mm"
     )
     load: Annotated[Any, Deferred("parts.gears.keys.sections:LoadSpec")] | None = Field(
-        None, description="load of the rating by ISO 6336 (loads is for forces of a drive)"
+        None, description="load of the rating by ISO 6336 (the section loads computes the forces of a drive)"
     )
     rating: Annotated[Any, Deferred("parts.gears.keys.rating:RatingSpec")] | None = Field(
         None, description="rating by ISO 6336 with all factors computed: life, material, grade, oil"

@@ -67,7 +67,7 @@ class LubricantSpec(Spec):
         None, description="temperature of the oil, for scuffing"
     )
     scuffing_stage: Annotated[int, unit("1", ge=8, le=14)] | None = Field(
-        None, description="load stage of the test FZG A/8.3/90 that the oil fails at, for scuffing"
+        None, description="failure load stage of the oil in the test FZG A/8.3/90, for scuffing"
     )
 
     @model_validator(mode="after")
@@ -83,7 +83,7 @@ class LubricantSpec(Spec):
             message = f"scuffing needs {', '.join(names)} together: {missing[0]} is missing"
             raise refused(message, missing[0], "GL106")
         if self.viscosity_100 is not None and self.viscosity_100 >= self.at_40:
-            message = "the oil is not thinner at 100 deg C than at 40\nlower viscosity_100"
+            message = "viscosity_100 is not below the viscosity at 40 deg C\nreduce viscosity_100"
             raise refused(message, "viscosity_100")
         return self
 
@@ -99,8 +99,10 @@ class ShaftSpec(Spec):
     """The shaft of the pinion, whose deflection is in the face load factor."""
 
     position: Literal["a", "b", "c", "d", "e"] = Field(
-        description="where the pinion is mounted by ISO 6336-1: a between bearings and the torque from the far side, b "
-        "from the near side, c overhung, d and e on further shafts"
+        description=(
+            "arrangement of the pinion by ISO 6336-1: a between bearings with the torque from the far side, b from "
+            "the near side, c overhung, d and e on further shafts"
+        )
     )
     span: Reach = Field(description="distance l of the bearings")
     offset: Bore = Field(description="distance s of the pinion from their middle")
@@ -123,7 +125,7 @@ class FaceSpec(Spec):
             return self
         for key in ("shaft", "modification"):
             if getattr(self, key) is not None:
-                message = f"misalignment has all effects in it\nomit {key}"
+                message = f"misalignment already includes all effects\nomit {key}"
                 raise refused(message, key)
         return self
 
@@ -176,14 +178,14 @@ class RatingSpec(Spec):
     contacts: Contacts | TwoContacts = Field(1.0, description="load contacts of a tooth per revolution")
     face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; default: none")
     long_life: Annotated[float, unit("1", ge=0.85, le=1)] = Field(
-        0.85, description="factor of the strength at 1e10 load cycles; 1 only for best material and experience"
+        0.85, description="life factor at 1e10 load cycles; 1 only for best material and experience"
     )
-    pitting: Literal["none", "allowed"] = Field("none", description="whether some pits are allowed")
+    pitting: Literal["none", "allowed"] = Field("none", description="limited pitting: none or allowed")
     mean_stress: MeanStress | TwoMeanStresses | None = Field(
-        None, description="Y_M; default: 1, of an idler or planet 0.7"
+        None, description="mean stress influence factor Y_M; default: 1, of an idler or planet 0.7"
     )
     root_shift: Literal["generating", "nominal"] = Field(
-        "generating", description="profile shift of the root: with the upper allowance, or the nominal one"
+        "generating", description="profile shift of the root in the rating: with the upper allowance, or nominal"
     )
     ring_root: Literal["generated", "iso"] = Field(
         "generated", description="fillet radius of a ring with cutter: of its cutter, or that of ISO 6336-3 with |z_n|"
@@ -200,13 +202,13 @@ class RatingSpec(Spec):
             message += f"\nchange one of them by {1.0 - total:+.4g}"
             raise refused(message, "spectrum")
         if self.spectrum is not None and not any(row.torque and row.share for row in self.spectrum):
-            raise refused("the spectrum carries no load\ngive a torque above 0", "spectrum")
+            raise refused("the spectrum has no load\ngive a torque above 0", "spectrum")
         for place, (low, high) in enumerate(_WEBS if self.web is not None else ()):
             if self.web is not None and not low <= self.web[place] <= high:
                 message = f"web[{place}] must be from {low:g} to {high:g}, not {self.web[place]:g}"
                 raise refused(message, f"web[{place}]", "GL108")
         if self.system == "pair" and self.planets is not None:
-            message = "planets goes with system: sun-planet or planet-ring\nomit it"
+            message = "planets applies only with system: sun-planet or planet-ring\nomit it"
             raise refused(message, "planets")
         if self.system != "pair" and self.planets is None and self.reduced_mass is None:
             raise refused(f"{self.system} needs planets, their number", "planets", "GL106")
@@ -318,11 +320,15 @@ def require_rated(spec: Any, rating: Any) -> None:
     material = spec.material
     for product in ("contact_factors", "bending_factors"):
         if material is not None and product in material.model_fields_set:
-            text = f"rating computes the factors that material.{product} gives as one product\nomit it"
+            text = f"rating computes the factors whose product is material.{product}\nomit it"
             refuse("GL111", f"material.{product}", text)
     factors = spec.load.factors.model_fields_set
     if rating.face is not None and "face_contact" in factors:
-        refuse("GL111", "rating.face", "load.factors.face_contact gives the face load factor\nomit face, or that")
+        refuse(
+            "GL111",
+            "rating.face",
+            "load.factors.face_contact already gives the face load factor\nomit face or load.factors.face_contact",
+        )
     limits = [None if material is None else getattr(material, f"{name}_limit") for name in ("contact", "bending")]
     if rating.material is None and None in limits:
         refuse(

@@ -37,7 +37,7 @@ class ToothKeys(Spec):
     addendum: Coefficient = Field(1.0, description="addendum coefficient")
     clearance: Annotated[float, unit("1", ge=0, le=1)] = Field(0.25, description="clearance coefficient")
     load_share: Literal["third", "half"] = Field(
-        "third", description="share of a flank pair next to another: third (1/3 to 2/3) or half"
+        "third", description="load share of a tooth pair in double contact: third (1/3 to 2/3) or half"
     )
     accuracy_grade: AccuracyGrade | None = Field(
         None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
@@ -62,7 +62,7 @@ class MaterialSpec(Spec):
         None, description="sigma_Hlim; default: no safety against pitting"
     )
     bending_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="sigma_Flim; default: no safety against breaking"
+        None, description="sigma_Flim; default: no safety against tooth breakage"
     )
     contact_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
         1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given"

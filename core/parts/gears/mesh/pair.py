@@ -39,7 +39,7 @@ def require_profile(pair: GearPair) -> None:
     if not 0.0 < pair.module < math.inf:
         raise NoSolution(f"module {pair.module:g} mm: it must be positive")
     if not _LEAST_MODULE <= pair.module <= 1.0 / _LEAST_MODULE:
-        message = f"module {pair.module:g} mm cannot be computed with: it must lie between 1e-100 and 1e100 mm"
+        message = f"module {pair.module:g} mm is out of range: it must lie between 1e-100 and 1e100 mm"
         raise NoSolution(message, key="module")
     _require_teeth(pair)
     if not 0.0 < pair.pressure_angle < math.pi / 2:
@@ -62,10 +62,11 @@ def _require_teeth(pair: GearPair) -> None:
         if isinstance(z, bool) or not isinstance(z, int) or z == 0:
             raise NoSolution(f"teeth {z!r}: a gear has a whole number of teeth, at least 1")
     if first < 0:
-        raise NoSolution(f"teeth {first!r}: gear 1 is external", key=pair.teeth_keys[0], fix="name the ring as gear 2")
+        raise NoSolution(f"teeth {first!r}: gear 1 is external", key=pair.teeth_keys[0], fix="make the ring gear 2")
     if second < 0 and -second <= first:
         raise NoSolution(
-            f"a ring of {-second} teeth does not take a gear of {first}: it needs more teeth", key=pair.teeth_keys[1]
+            f"a gear of {first} teeth does not fit into a ring of {-second}: the ring needs more teeth",
+            key=pair.teeth_keys[1],
         )
     own_ring = second < 0 and pair.given_shift != (0.0, 0.0)
     unusual = own_ring or pair.helix_angle != 0.0 or any(pair.tools)
@@ -95,7 +96,7 @@ def require_distance(pair: GearPair, distance: float) -> None:
             "base "
             f"radii of gears of {pair.teeth[0]} and {pair.teeth[1]} teeth, module {pair.module:g} mm)"
         ),
-        fix=f"set the centre distance to at least {safely_above(least)} mm, or take fewer teeth",
+        fix=f"set the centre distance to at least {safely_above(least)} mm, or use fewer teeth",
     )
 
 
@@ -113,7 +114,7 @@ def require_shift(pair: GearPair) -> None:
                 f"sum of the profile shifts: {unlike(total, bound)} (limit >= {unlike(bound, total)}: no working "
                 f"pressure angle of {pair.teeth[0]} and {pair.teeth[1]} teeth)"
             ),
-            fix="raise a shift or take more teeth",
+            fix="raise a shift or use more teeth",
         )
     if pair.internal and not -math.inf < total <= bound:
         raise NoSolution(
@@ -167,12 +168,12 @@ def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:
     fitting = pair.module * distance / pair.reference_center_distance
     return NoSolution(
         (
-            f"no tip is left to gear {gear + 1}: tip shortening {-pair.tip_alteration[gear]:.3g} modules, sum of the "
+            f"the tips vanish at gear {gear + 1}: tip shortening {-pair.tip_alteration[gear]:.3g} modules, sum of the "
             f"profile shifts {pair.shift_sum:.3g} (centre distance {short(distance)} mm, {first} and {second} teeth, "
             f"module {pair.module:g} mm)"
         ),
         fix=(
-            f"set the centre distance near {short(pair.reference_center_distance)} mm, or take a module "
+            f"set the centre distance near {short(pair.reference_center_distance)} mm, or use a module "
             f"near {fitting:.3g} mm or more teeth"
         ),
     )
@@ -444,7 +445,7 @@ class GearPair(PitchPair):
                     f"tip of gear {2 - gear} beyond the base tangent point of gear {gear + 1}: "
                     f"{short(-self.interference_margin[1 - gear])} mm (limit < 0 mm: sliding is infinite there)"
                 ),
-                fix="lower its profile shift or the addendum, or take more teeth",
+                fix="lower its profile shift or the addendum, or use more teeth",
             )
         return self._sliding_at_root(gear)
 

@@ -83,8 +83,7 @@ class ToothProfile:
             raise NoSolution(
                 (f"a gear of {self.teeth} teeth with the profile shift {short(self.shift)} has no root circle left"),
                 fix=(
-                    f"take at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or "
-                    "raise the shift"
+                    f"use at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or raise the shift"
                 ),
             )
         if not self._form < self._top:
@@ -93,7 +92,7 @@ class ToothProfile:
                 f"start of the involute of a gear of {self.teeth} teeth: radius "
                 f"{unlike(self.form_radius, self.outer_radius)} mm (limit < "
                 f"{unlike(self.outer_radius, self.form_radius)} mm, its tip)",
-                fix=f"{remedy} the profile shift, or take more teeth",
+                fix=f"{remedy} the profile shift, or use more teeth",
             )
 
     @classmethod

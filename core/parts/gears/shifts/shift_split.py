@@ -102,12 +102,12 @@ class Diagonal:
         else:
             high.append(self._where_tip_is(0, math.hypot(base[0], self.line)))
         if not max(low) < min(high):
-            raise NoSolution("no share of the shift sum keeps contact on both involutes", fix="take more teeth")
+            raise NoSolution("no split of the shift sum keeps contact on both involutes", fix="use more teeth")
         return max(low), min(high)
 
     def _require_shares(self) -> None:
         if self.pair.given_tip_radius is not None:
-            raise NoSolution("with given tip diameters sliding and contact do not change with the share", fix=_GIVEN)
+            raise NoSolution("with given tip diameters sliding and contact do not depend on the split", fix=_GIVEN)
 
     def equal_sliding(self) -> Split:
         """x_1 of equal specific sliding at both roots: rho_A2 rho_E2 = u^2 rho_A1 rho_E1.
@@ -126,9 +126,9 @@ class Diagonal:
 
         low, high = self.domain
         try:
-            return Split(bracketed_root(difference, low, high), "the only share of equal sliding")
+            return Split(bracketed_root(difference, low, high), "the only split with equal sliding")
         except NoSolution:
-            raise NoSolution("no share of the shift sum makes the sliding of both gears equal", fix=_GIVEN) from None
+            raise NoSolution("no split of the shift sum makes the sliding of both gears equal", fix=_GIVEN) from None
 
     def equal_tips(self) -> Split:
         """x_1 of equal tip thickness.
@@ -147,7 +147,7 @@ class Diagonal:
         values = [difference(first) for first in grid]
         falling = [k for k in sign_changes(values) if values[k] >= 0.0]
         if not falling:
-            raise NoSolution("no share of the shift sum makes both tips equally thick", fix=_GIVEN)
+            raise NoSolution("no split of the shift sum makes both tips equally thick", fix=_GIVEN)
         middle = min(falling, key=lambda k: abs(grid[k] - self.shift_sum / 2.0))
         return Split(bracketed_root(difference, grid[middle], grid[middle + 1]), "equal tips")
 
@@ -168,7 +168,7 @@ class Diagonal:
                     f"sum of the profile shifts: {unlike(self.shift_sum, needed)} (limit >= {safely_above(needed)} for "
                     "no undercut on both gears)"
                 ),
-                fix="take a larger centre distance or more teeth",
+                fix="use a larger centre distance or more teeth",
             )
         return low, high
 
@@ -216,7 +216,7 @@ class Diagonal:
         grid = [first for k in range(_POINTS + 1) if stresses(first := low + (high - low) * k / _POINTS) is not None]
         if not grid:
             raise NoSolution(
-                "no share of the shift sum leaves both gears full tips and a root section of ISO 6336-3", fix=_GIVEN
+                "no split of the shift sum leaves both gears full tips and a root section of ISO 6336-3", fix=_GIVEN
             )
         roots = roots_on(ratio, grid)
         if roots:
@@ -227,10 +227,10 @@ class Diagonal:
         first, _ = maximum(lambda x: -greatest(x), *ends)
         if not all(whole(first + off * _APART) for off in (-1.0, 1.0)):
             raise NoSolution(
-                "no share of equal root stress: the maximum stress is at its minimum where a tooth becomes pointed",
+                "no split gives equal root stress: the maximum stress has its minimum where a tooth becomes pointed",
                 fix=_GIVEN,
             )
-        return Split(first, "no share of equal root stress; this one has the lowest maximum")
+        return Split(first, "no split gives equal root stress; this one has the lowest maximum")
 
     def split(self, name: str, strength: Strength) -> Split:
         """The share of one of SPLITS.

@@ -89,7 +89,7 @@ class TrainMaterial(Spec):
     poisson: Poisson | _Poissons = Field(0.3, description="Poisson's ratio")
     contact_limit: Stress | _Stresses | None = Field(None, description="sigma_Hlim; default: no safety against pitting")
     bending_limit: Stress | _Stresses | None = Field(
-        None, description="sigma_Flim; default: no safety against breaking"
+        None, description="sigma_Flim; default: no safety against tooth breakage"
     )
     contact_factors: Factor | _Factors = Field(1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given")
     bending_factors: Factor | _Factors = Field(

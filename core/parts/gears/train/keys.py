@@ -48,7 +48,7 @@ class TrainKeys(ToothKeys):
         None, description="rack tool of all gears, or of each; default: straight to the addendum"
     )
     cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(
-        None, description="pinion cutter of a ring: only then its fillets are known"
+        None, description="pinion cutter of a ring: needed to compute its fillets"
     )
     face_width: Annotated[Any, Deferred("parts.gears.train.key_sections:FaceWidths")] | None = Field(
         None, description="face width of all gears, or of each"
@@ -57,7 +57,7 @@ class TrainKeys(ToothKeys):
         None, description="thickness of the rim under the tooth roots of all gears, or of each, for Y_B"
     )
     span_teeth: Annotated[Any, Deferred("parts.gears.train.key_sections:Spans")] | None = Field(
-        None, description="teeth that the span measurement of each gear goes over; default: chosen"
+        None, description="number of teeth of the span measurement of each gear; default: chosen"
     )
     pin_diameter: Annotated[Any, Deferred("parts.gears.train.key_sections:Pins")] | None = Field(
         None, description="measuring balls or pins of all gears, or of each; default: a preferred size"
@@ -66,11 +66,11 @@ class TrainKeys(ToothKeys):
         None, description="allowances of the tooth thickness of every gear"
     )
     center_distance_allowance: Literal["js7"] | Length | None = Field(
-        None, description="plus and minus of every centre distance: js7, or a number in mm"
+        None, description="allowance +- of every centre distance: js7, or a number in mm"
     )
-    assembly: Literal["axial", "radial"] | None = Field(None, description="how a gear is put into its ring")
+    assembly: Literal["axial", "radial"] | None = Field(None, description="assembly of a gear and its ring")
     load: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainLoad")] | None = Field(
-        None, description="load of the rating by ISO 6336; each free gear hands it on"
+        None, description="load of the rating by ISO 6336; each free gear transmits it to the next"
     )
     rating: Annotated[Any, Deferred("parts.gears.train.rating_keys:TrainRating")] | None = Field(
         None, description="rating by ISO 6336 with all factors computed: life, material, grade, oil"
@@ -116,7 +116,7 @@ class TrainKeys(ToothKeys):
 
         require_rated(self, self.rating)
         if self.rating.system != "pair":
-            message = "system is that of a gear-pair\nomit it, and give reduced_mass where planets matter"
+            message = "system applies only to a gear-pair\nomit it, and give reduced_mass where planets matter"
             raise refused(message, "rating.system")
         return self
 
@@ -125,7 +125,7 @@ class TrainKeys(ToothKeys):
         rings = self.rings()
         for key in ("cutter", "assembly"):
             if getattr(self, key) is not None and not any(rings):
-                raise refused(f"{key} goes with a ring gear\nomit it", key)
+                raise refused(f"{key} applies only to a ring gear\nomit it", key)
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:

@@ -112,7 +112,7 @@ def _in_ring(name: str, mesh: GearPair, limits: Any) -> Iterator[Check]:
 
 def _without_involutes(mesh: GearPair) -> Check:
     teeth, margin = least_ring(mesh), mesh.ring_tip_margin
-    fix = "take a larger pressure angle" if teeth is None else f"give the ring gear at least {teeth} teeth"
+    fix = "use a larger pressure angle" if teeth is None else f"give the ring gear at least {teeth} teeth"
     what = "tips of the ring gear within its base circle"
     return INTERFERENCE.check("fail", what, margin, 0.0, "mm", overlap=what, aside="no involute there", fix=fix)
 
@@ -137,7 +137,7 @@ def _ring_tips_on_fillet(mesh: GearPair) -> Iterator[Check]:
         "mm",
         name=RING_TIPS,
         shown=Shown(used, form, "mm"),
-        aside="form radius by a standard tool",
+        aside="form radius of a standard tool",
         fix="shorten the tips of the ring gear",
     )
 

@@ -109,7 +109,7 @@ class Train:
     def _cutter(self, ring: int) -> PinionCutter:
         given = self.keys.cutter
         if given.teeth >= ring:
-            message = f"a cutter of {given.teeth} teeth does not go into a ring of {ring}"
+            message = f"a cutter of {given.teeth} teeth does not fit into a ring of {ring}"
             raise NoSolution(message, key="cutter.teeth", fix=f"set cutter.teeth below {ring}")
         return PinionCutter(**given.model_dump())
 

@@ -48,12 +48,14 @@ class TrainRating(RatingSpec):
         None, description="accuracy grade of ISO 1328-1; default: accuracy_grade"
     )
     roughness: TrainRoughness = TrainRoughness.model_construct()
-    bore: Bore | Annotated[list[Bore], _MANY] = Field(0.0, description="bore; of a ring the outside diameter")
+    bore: Bore | Annotated[list[Bore], _MANY] = Field(
+        0.0, description="diameter of the bore; of a ring the outside diameter"
+    )
     contacts: Contacts | Annotated[list[Contacts], _MANY] = Field(
         1.0, description="load contacts of a tooth per revolution"
     )
     mean_stress: MeanStress | Annotated[list[MeanStress], _MANY] | None = Field(
-        None, description="Y_M; default: 1, of an idler or planet 0.7"
+        None, description="mean stress influence factor Y_M; default: 1, of an idler or planet 0.7"
     )
 
     def of(self, places: Any) -> RatingSpec:

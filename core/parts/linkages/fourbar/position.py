@@ -296,5 +296,5 @@ def _not_turning(linkage: FourBar) -> NoSolution:
     return NoSolution(
         f"the crank does not turn fully: the {linkage.kind()} of {linkage.crank:g}, {linkage.coupler:g}, "
         f"{linkage.rocker:g}, {linkage.frame:g} mm closes {within(low, high, 'deg')} only",
-        fix="change the lengths to a crank-rocker or drag link",
+        fix="change the lengths to those of a crank-rocker or drag link",
     )

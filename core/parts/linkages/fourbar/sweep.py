@@ -528,6 +528,6 @@ def _checked(linkage: FourBar, phi: Reals, b: Reals, c: Reals) -> Reals:
                 f"{limit[at]:.3g} mm) after at most {MOST_ITERATIONS} iterations; the linkage does not "
                 "close there, or the start lies too far off"
             ),
-            fix="take the closed form's position as the start",
+            fix="use the closed form's position as the start",
         )
     return np.asarray(residual)

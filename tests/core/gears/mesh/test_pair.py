@@ -413,7 +413,7 @@ def test_refusals_name_the_limit(make, message):
 def test_a_distance_that_takes_the_tips_names_what_fits_it():
     """66 teeth fill 100 mm with a module of 3.03 mm; a module of 10 um cannot, whatever the shifts."""
     pair = GearPair(module=1e-5, teeth=(19, 47), given_distance=100.0)
-    with pytest.raises(NoSolution, match=r"no tip is left to gear 1: .* near 0\.00033 mm, or .* near 3\.03 mm"):
+    with pytest.raises(NoSolution, match=r"the tips vanish at gear 1: .* near 0\.00033 mm, or .* near 3\.03 mm"):
         _ = pair.tip_pressure_angle
 
 

@@ -212,7 +212,7 @@ def test_sharp_and_full_round_tools():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"teeth": 2}, "no root circle left; take at least 3 teeth"),
+        ({"teeth": 2}, "no root circle left; use at least 3 teeth"),
         ({"teeth": 20, "addendum": 2.5}, "pointed"),
         ({"teeth": 20, "rounding": 0.9}, "from 0 to 0.47"),
     ],

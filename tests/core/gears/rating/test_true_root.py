@@ -258,4 +258,4 @@ def test_the_tooth_beside_a_gap_is_cut_down_and_loaded_at_its_tip() -> None:
     assert low.tension.factor < ending.tension.factor
     (found,) = wheel.check("true-fillet")
     assert found.code == "GL219"
-    assert "its only rating" in found.note[0]
+    assert "rated only by the boundary integral" in found.note[0]
