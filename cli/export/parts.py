@@ -341,7 +341,7 @@ def three_gears(design: Any) -> Makers:
     return {"gear1": first["gear1"], "gear3": idler, "gear5": second["gear5"]}
 
 
-_OF_MATE = ("teeth of the mating gear", "centre distance", "centre distance allowance, plus and minus")
+_OF_MATE = ("teeth of the mating gear", "centre distance", "centre distance allowance +-")
 """Lines of a gear's table that it has for each of its mates."""
 
 

@@ -437,7 +437,7 @@ def _words(names: Sequence[str]) -> str:
 
 def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *, first: bool) -> None:
     """Magnitude of the force of some pins, with the maximum of each."""
-    _over_turn(axes, design, "Joint forces" if first else "Smaller joint forces", "force [N]")
+    _over_turn(axes, design, "Joint forces" if first else "Joint forces, smaller ones", "force [N]")
     columns = _forces_of(design)
     for names, color, line in zip(groups, cycle(_COLORS), cycle(_LINES)):
         values = columns[names[0]]

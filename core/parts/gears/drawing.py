@@ -85,9 +85,9 @@ def _rack_lines(rack: RackMesh) -> Iterator[Row]:
 
 
 def _rack_mesh(rack: RackMesh) -> Iterator[Row]:
-    yield "centre distance (axis to the datum line of the rack)", "a", rack.center_distance, rack.center_distance, "mm"
+    yield "axis to the datum line of the rack", "a", rack.center_distance, rack.center_distance, "mm"
     allowance = rack.data.distance_allowance
-    yield "centre distance allowance, plus and minus", "A_a", allowance, allowance, "mm"
+    yield "centre distance allowance +-", "A_a", allowance, allowance, "mm"
     yield "contact ratio", "eps_alpha", rack.contact_ratio, rack.contact_ratio, ""
     for play, name in zip(rack.backlash_normal or (), ("minimum", "maximum"), strict=False):
         yield f"theoretical backlash, {name}", "j_bn", play, play, "mm"
@@ -215,7 +215,7 @@ def _mesh(data: GearData) -> Iterator[Row]:
     distance = abs(pair.center_distance)
     yield "centre distance", "a_w", distance, distance, "mm"
     allowance = data.distance_allowance
-    yield "centre distance allowance, plus and minus", "A_a", allowance, allowance, "mm"
+    yield "centre distance allowance +-", "A_a", allowance, allowance, "mm"
     yield "working pressure angle", "alpha_wt", *(_degrees(pair.working_pressure_angle),) * 2, "deg"
     yield "contact ratio", "eps_alpha", pair.contact_ratio, pair.contact_ratio, ""
     if data.backlash is not None:

@@ -78,7 +78,7 @@ def test_designs_are_marked(gearlink: Any, designs: Path) -> None:
     made = design("wide_swing_twin_cam", command="swing")
     assert ended.json["quantities"]["energy_parameter"]["value"] == made.quantity("energy_parameter").value
     spring = gearlink("chart", "energy-parameter", "--design", designs / "wide_swing_twin_rocker.yaml")
-    assert (spring.status, "about a cylinder" in spring.err) == (2, True)
+    assert (spring.status, "applies to a cylinder" in spring.err) == (2, True)
     other = gearlink("chart", "dwell-ratio", "--design", designs / "wide_swing_twin_cam.yaml", "--format", "json")
     assert (other.status, json.loads(other.out)["errors"][0]["key"]) == (2, "kind")
     bare = gearlink("chart", "dwell-ratio", "--design", designs / "thesis_example_1.yaml")

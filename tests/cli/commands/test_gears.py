@@ -154,4 +154,4 @@ def test_a_ratio_beyond_all_pairs_is_told(gearlink: Any) -> None:
     assert ended.status == 1
     assert "takes a sum of 8517, but pairs are searched only up to 2000: lower --least-teeth or --ratio" in ended.err
     words = ("--least-teeth", "3", "--modules", "0.16")
-    assert "pairs are sought" not in gearlink("gears", "--ratio", "500", "--center-distance", "120", *words).err
+    assert "pairs are searched" not in gearlink("gears", "--ratio", "500", "--center-distance", "120", *words).err

@@ -315,7 +315,7 @@ def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> No
     path.write_text("kind: gear-pair\nmodule: 2\nteeth: [1, 1]\nprofile_shift: [3, 3]\n")
     ended, plain = gearlink("gear", path, "--suggest"), gearlink("gear", path)
     assert ended.status == ExitCode.FINDING
-    assert ended.out == "suggestions: none found with which every check passes\n\n" + plain.out
+    assert ended.out == "suggestions: no change found with which every check passes\n\n" + plain.out
     assert gearlink("gear", path, "--suggest", "--format", "json").json["suggestions"] == []
 
 

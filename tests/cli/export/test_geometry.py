@@ -327,7 +327,7 @@ def test_a_file_holds_so_many_points_whatever_its_curves(monkeypatch: pytest.Mon
         contour(part, 1e-3, CurveForm.POLYLINE)
     assert contour(part, 2e-3, CurveForm.POLYLINE).points < whole.points - 20
     monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", 20)
-    with pytest.raises(TooFine, match="no tolerance up to 10 mm does"):
+    with pytest.raises(TooFine, match="no tolerance up to 10 mm is sufficient"):
         contour(part, 1e-3, CurveForm.POLYLINE)
 
 

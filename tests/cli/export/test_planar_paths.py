@@ -91,4 +91,4 @@ def test_a_four_bar_without_coupler_point_says_what_to_write(tmp_path: Path) -> 
 def test_a_path_is_no_body(tmp_path: Path) -> None:
     done = run("export", str(DESIGNS / "planar_watt.yaml"), "--as", "step", "--out", str(tmp_path))
     assert done.exit_code == 2
-    assert "a path is no solid" in done.output
+    assert "a path is not a solid" in done.output

@@ -113,7 +113,7 @@ def test_a_picture_is_written(tmp_path):
 @pytest.mark.slow
 def test_teeth_that_no_tool_cuts_are_said_to_be_none():
     figure = sheet(DATA, "gear", teeth=[30, 40], addendum=2.5, profile_shift=[0.0, 0.0]).figure
-    assert "gear 1: its tool leaves no such teeth" in words(figure)
+    assert "gear 1: the tool cannot cut these teeth" in words(figure)
     assert not tagged(figure, "body-1")
 
 

@@ -295,7 +295,7 @@ def test_budget_is_kept_and_what_was_reached_is_told() -> None:
         ("five_bar_function", {"range": {"start": 0, "end": 60}}, "omit range"),
         ("five_bar_function", {"target__function__links": "given"}, "give range"),
         ("five_bar_function", {"target__function__name": "power"}, "exponent is required with power"),
-        ("five_bar_function", {"target__function__x": [2, 2]}, "the same at both ends"),
+        ("five_bar_function", {"target__function__x": [2, 2]}, "the same value at both ends"),
         ("five_bar_function", {"target__function__output_swing": 0}, "a moving output"),
         ("five_bar_points", {"target__points": None, "target__function": {"name": "log", "x": [1, 2],
          "input_swing": 60, "output_swing": 90}}, "form: function"),

@@ -23,7 +23,7 @@ def test_a_rack_has_the_lines_of_its_teeth_alone() -> None:
     for item in ("span measurement, minimum", "measure over balls, maximum", "thickness allowance, upper"):
         gear = pair[(item, "mm")]
         assert lines[item] == (gear, gear if item.startswith("thickness") else None), item  # a rack takes its gear's
-    assert lines["centre distance (axis to the datum line of the rack)"][0] == lines["reference diameter"][0] / 2 + 0.6
+    assert lines["axis to the datum line of the rack"][0] == lines["reference diameter"][0] / 2 + 0.6
     assert lines["face width"] == (30.0, 30.0)
 
 

@@ -143,7 +143,7 @@ def test_design() -> None:
     assert made.dwell_force == pytest.approx(
         float(made.unloading.contact_force(made.cam, np.array([0.0, 1.0]), 0.0).max()), rel=1e-14
     )
-    with pytest.raises(NoSolution, match="leave out slider"):
+    with pytest.raises(NoSolution, match="omit slider"):
         _ = made.even_cam
 
 
