@@ -1,1 +1,1 @@
-"""What every kind of file is: designs, reports, kinds, remedies, words; no mechanics."""
+"""Parts that every kind of design file uses: designs, reports, kinds, fixes, texts; no mechanics."""

@@ -25,7 +25,7 @@ _SHARES = (0.8, 0.9, 1.0, 1.1, 1.25, 1.5)
 
 @dataclass(frozen=True)
 class Sought:
-    """What a table of candidates tries and shows.
+    """The keys that a table of candidates varies and the quantities that it shows.
 
     Parameters
         command : str - whose checks are the findings
@@ -46,7 +46,7 @@ class Sought:
 
 
 def table(design: Design, sought: Sought, spec: Any = None) -> Table:
-    """The table `candidates` of a design, from its spec or from that which it was made of."""
+    """The table `candidates` of a design, from its own spec or the spec it was derived from."""
     found = [_row(design, sought, values, spec or design.spec) for values in sought.rows]
     for row, label in zip(found, sought.labels, strict=False):
         row[sought.label] = label
@@ -86,7 +86,7 @@ def _number(trial: Design, name: str) -> Any:
 
 
 def findings(trial: Design, command: str) -> str:
-    """The codes of what does not pass, failures first; "pass" where all does."""
+    """The codes of the checks that do not pass, failures first; "pass" where all pass."""
     checks = [found for name in trial.outline(command).checks for found in trial.check(name)]
     named = (
         f"{check.status} {check.code}" for status in ("fail", "warn") for check in checks if check.status == status
@@ -122,5 +122,5 @@ def pairs(one: Iterable[Any], other: Iterable[Any]) -> list[tuple[Any, Any]]:
 
 
 def nothing_sought(words: str) -> NoSolution:
-    """A file that leaves nothing to be found has no candidates."""
+    """The refusal of candidates for a file that determines everything."""
     return NoSolution(f"the file determines everything, so there are no candidates: {words}", key="kind")

@@ -1,4 +1,4 @@
-"""Every code of a check with its rule; each stands beside the checks that judge by it, and none needs a kernel."""
+"""All rules of checks by their codes. Each rule is defined next to its checks, without importing their kernels."""
 
 from __future__ import annotations
 

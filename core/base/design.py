@@ -1,8 +1,8 @@
-"""What every kind of design shares: results by name, computed when asked for and never twice.
+"""The base class of all designs: results by name, each computed on request and only once.
 
-A design's results are `cached_property`s written in terms of each other, in mm and radians; the names
-are those of `gearlink.core.base.nomenclature`. Asking for one computes what it needs and nothing else. A design holds
-no other state, so there is no order in which things must be called.
+A design's results are `cached_property`s that depend on each other, in mm and radians; their names are those of
+`gearlink.core.base.nomenclature`. Requesting a result computes only what it depends on. A design has no other state,
+so there is no order in which results must be requested.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ Made = TypeVar("Made", bound="Design")
 
 
 class Kin(Protocol):
-    """The designs of one file: what makes that of any command which it asks for."""
+    """The designs of one file, one for each of its commands."""
 
     def of(self, command: str) -> Design:
-        """The design that serves a command, the same one each time while it is in use."""
+        """The design for a command; the same object each time while it is in use."""
 
     def of_class(self, cls: type[Made], spec: Any) -> Made:
         """The design of a class, the same one each time while it is in use; another one for another spec."""
@@ -66,7 +66,7 @@ class Kin(Protocol):
 
 
 def placed(path: str) -> Any:
-    """A quantity whose value stands elsewhere on the design.
+    """A quantity whose value is an attribute of another object of the design.
 
     Parameters
         path : str - from the design on, "slider_crank.crank_length", "fastest.0.speed"; "cams.*.max_radius" is a list
@@ -203,7 +203,7 @@ class Design:
 
     @cached_property
     def moving(self) -> Motion:
-        """Its links and joints over the input, of a kind that moves."""
+        """The links and joints over the input; only for kinds that move."""
         from gearlink.core.base.kinds import KINDS
 
         return KINDS[self.kind].motion_of(self)
@@ -323,7 +323,8 @@ class Design:
         return ""
 
     def rests_on(self, _name: str, /) -> str:
-        """In words, the inputs of a quantity that a reader may take for computed; empty where there are none."""
+        """In words, the assumed inputs of a quantity that a reader could mistake for computed ones; empty where there
+        are none."""
         return ""
 
     def table(self, name: str, *, samples: int | None = None) -> Table:
@@ -399,7 +400,7 @@ class Design:
             return [found] if isinstance(found, Check) else list(found)
 
     def completion(self) -> Iterable[Found]:
-        """What completes the file: the links that a synthesis found instead of its task."""
+        """The keys that complete the file: the links that a synthesis found, in place of its task."""
         return ()
 
     def as_found(self) -> Iterable[Found]:
@@ -416,7 +417,8 @@ class Design:
         return {}
 
     def bench(self, command: str) -> Bench:
-        """Where changes of this design are tried for the findings of a command, and of those that hold with it."""
+        """The bench on which changes of this design are tested against the findings of a command and of the related
+        commands."""
         commands = frozenset(commands_of(self, command))
         if commands not in self._benches:
             self._benches[commands] = Bench(self, command)
@@ -456,7 +458,7 @@ class Design:
         return with_remedies(self, command, tuple(self.check(check)))
 
     def ways_of(self, check: str) -> Iterable[Way]:
-        """How the file may be changed where a check does not hold."""
+        """The changes of the file that may repair a failing check."""
         return self.ways.get(check, ())
 
     def candidates(self, _check: str, /) -> Iterable[Remedy]:
@@ -464,7 +466,8 @@ class Design:
         return ()
 
     def asks_less(self, keys: Iterable[str]) -> bool:
-        """Whether one of the keys to be changed, or a section that it stands in, says what the machine has to do."""
+        """Whether a change relaxes the task: one of its keys, or the section of the key, specifies what the machine
+        must do."""
         return any(head in self.requirements for key in keys for head in _heads(key))
 
     def require(self, command: str) -> None:
@@ -479,7 +482,7 @@ class Design:
             self.raw(name)
 
     def require_named(self) -> None:
-        """Refuse what the sections of a command name and the design does not have; nothing more is computed.
+        """Refuse names in the sections of a command that the design does not have; nothing else is computed.
 
         Raises
             NoSolution, WrongStudy - at the name

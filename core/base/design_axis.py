@@ -1,8 +1,8 @@
-"""Many designs at once: what a kind's array form takes and gives, so that a study need not know the kind.
+"""Many designs at once: the interface of the array form of a kind, so that a study need not know the kind.
 
-A kind that can compute many designs names, in `core.base.kinds`, what makes its `Axis` from a base design; the axis
-gives the `Evaluated` designs for arrays of some keys' values. Names, units, codes, limits and refusals are those of
-the design class's, with which it must agree.
+A kind that can compute many designs names, in `core.base.kinds`, the function that makes its `Axis` from a base
+design; the axis returns the `Evaluated` designs for arrays of values of some keys. Names, units, codes, limits and
+refusals must agree with those of the design class.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class Maker(Protocol):
 def kept_inside(
     columns: Mapping[str, Reals], domains: Mapping[str, tuple[float, float, float]]
 ) -> tuple[dict[str, Reals], Mask]:
-    """Values that an array form can compute with, and the designs that have others: those are left to the class.
+    """Values that an array form can compute, and the designs with other values, which the design class computes.
 
     Parameters
         columns : (N,) arrays by path
@@ -126,7 +126,7 @@ def kept_inside(
 
 
 def as_arrays(singles: Sequence[Single], names: Sequence[str], codes: Sequence[str]) -> Evaluated:
-    """Designs computed one by one in the form of many."""
+    """Results of designs that were computed one by one, in the form of `Evaluated`."""
     reasons = list(dict.fromkeys(one.refused for one in singles if one.refused))
     refused = np.array([reasons.index(one.refused) + 1 if one.refused else 0 for one in singles], dtype=np.intp)
     findings = [found for code in codes for found in _of_code(code, singles)]
@@ -136,7 +136,7 @@ def as_arrays(singles: Sequence[Single], names: Sequence[str], codes: Sequence[s
 
 
 def put_in(many: Evaluated, places: Any, few: Evaluated) -> Evaluated:
-    """Designs with those at some places exchanged for others, computed in another way."""
+    """Designs in which those at some indices are replaced by others that were computed separately."""
     quantities = {}
     for name, values in many.quantities.items():
         new = few.quantities[name]

@@ -100,7 +100,7 @@ def section_of(spec: Any, name: str, words: str) -> Any:
 
 
 def anew(error: NoSolution) -> NoSolution:
-    """A refusal that is kept, to be raised once more: the same, without the ways on which it was raised before.
+    """A stored refusal to be raised again, without the traceback of the first time.
 
     Notes
         Raised itself, it would keep every function that it has ever passed, with all that these held.

@@ -1,4 +1,4 @@
-"""What a check compares, of one design or of many: the words come after."""
+"""The comparison that a check makes, for one design or many, without its text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of a kind of file, and what that gives: its spec model, its designs; imported when wanted."""
+"""A kind of file and what follows from its record: its spec model and its designs, imported on demand."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _SHARED = {
 
 
 class Kind(NamedTuple):
-    """All that is said of a kind; places are "module:name", below `folder` or below gearlink (cli).
+    """The record of a kind; locations are "module:name", below `folder` or below gearlink (cli).
 
     Fields
         name, summary : str - as `kind` in a file has it; the kind in a few words
@@ -114,13 +114,13 @@ class Kind(NamedTuple):
         return found
 
     def movable(self, design: Design, mechanism: Mechanism) -> Any:
-        """What the sizes, gears and pins of a design move: a `Movable`."""
+        """The `Movable` of a design: the elements moved by its sizes, gears and pins."""
         if self.errors:
             return self._own(self.errors)(design, mechanism)
         return load("core.studies.movable:Movable")()
 
     def axis_maker(self) -> Maker | None:
-        """What makes the kind's array form, where it has one."""
+        """The maker of the kind's array form; None without one."""
         found: Maker | None = self._own(self.array) if self.array else None
         return found
 
@@ -169,6 +169,6 @@ class FileDesigns:
 
 
 def load(place: str) -> Any:
-    """What stands at a place below gearlink, "package.module:name"."""
+    """The object at a location below gearlink, "package.module:name"."""
     module, _, name = place.partition(":")
     return getattr(import_module(f"gearlink.{module}"), name)

@@ -1,6 +1,6 @@
-"""Designs that differ by some numbers as one whose numbers are columns: what all of them need is then sought at once.
+"""Designs that differ in some numbers, as one design whose numbers are columns, so that searches run for all at once.
 
-A search whose function gives a row for each design gives an extreme whose value and place are arrays.
+A search whose function returns a row for each design gives an extreme whose value and position are arrays.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def _joined(values: Sequence[Any]) -> Any:
 
 
 def hand_in(many: Any, owners: Sequence[Any], *names: str) -> None:
-    """Let one for all of the owners keep columns of results that each has of its own.
+    """Store in one combined owner, as columns, the results that each of the owners has.
 
     Raises
         Unlike
@@ -98,7 +98,7 @@ def hand_in(many: Any, owners: Sequence[Any], *names: str) -> None:
 
 
 def in_groups(designs: Sequence[Part], key: Callable[[Part], Hashable]) -> list[list[Part]]:
-    """Designs that are alike in a key, in their order."""
+    """Groups of designs with equal values of a key, in their order."""
     found: dict[Hashable, list[Part]] = {}
     for design in designs:
         found.setdefault(key(design), []).append(design)
@@ -145,7 +145,7 @@ def sought(find: Callable[[Sequence[Any]], None], designs: Sequence[Any]) -> Non
 
 
 def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
-    """Let each of the owners keep its own of the results that one found for all of them.
+    """Store in each of the owners its own part of the results that one owner found for all.
 
     Parameters
         found : of the class of the owners, with columns for their numbers
@@ -156,7 +156,7 @@ def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
 
 
 def hand_on(owners: Sequence[Any], **found: Any) -> None:
-    """Let each of the owners keep its own of results that were found for all of them."""
+    """Store in each of the owners its own part of results that were found for all of them."""
     for name, value in found.items():
         for row, owner in enumerate(owners):
             keep(owner, **{name: _of_row(value, row)})

@@ -1,4 +1,4 @@
-"""Names that may have been meant by a word that nothing bears: those that hold it, and those that it misspells."""
+"""Suggestions for an unknown word: names that contain it, and names of which it is a misspelling."""
 
 from __future__ import annotations
 

@@ -111,7 +111,7 @@ class Check(NamedTuple):
 
     @property
     def message(self) -> str:
-        """What was found, in at most 240 characters and without the fix."""
+        """The text of the finding, at most 240 characters, without the fix."""
         for aside in (self.aside, ""):
             text = self._worded(aside)
             if len(text) <= _MOST_CHARACTERS:
@@ -160,7 +160,7 @@ class Check(NamedTuple):
 
     @property
     def fix(self) -> str | None:
-        """The one change that repairs it: the one that was tried, else general advice; None where there is none."""
+        """The one change that repairs the finding: a tested one, else general advice; None where there is none."""
         if self.remedy:
             return remedy_words(self.remedy) + (" (relaxes the requirement)" if self.relaxes else "")
         return self.advice or None

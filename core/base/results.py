@@ -1,4 +1,4 @@
-"""Results that are computed when asked for and kept, and the one place where an observer may watch them."""
+"""Results that are computed on request and stored, and the only place where an observer can monitor them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def step(name: str) -> AbstractContextManager[None]:
 
 
 def keep(owner: Any, **results: Any) -> None:
-    """Let an owner keep results that are known already: they are not computed when they are asked for.
+    """Store known results in an owner, so that they are not computed on request.
 
     Raises
         TypeError - for a name that is no kept result of the owner's class
@@ -42,7 +42,7 @@ def keep(owner: Any, **results: Any) -> None:
 
 
 def kept(owner: Any, *names: str) -> dict[str, Any]:
-    """Those of the named results that an owner keeps already, with their values."""
+    """The named results that an owner has already stored, with their values."""
     return {name: owner.__dict__[name] for name in names if name in owner.__dict__}
 
 

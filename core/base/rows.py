@@ -1,4 +1,4 @@
-"""Which rows of a table are wanted."""
+"""The rows of a table that are requested: all, or a part of them."""
 
 from __future__ import annotations
 

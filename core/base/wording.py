@@ -1,4 +1,4 @@
-"""Words of numbers, as messages need them: four significant digits, and a comparison that never rounds to another."""
+"""Numbers as text in messages: four significant digits, rounded so that a comparison is never reversed."""
 
 from __future__ import annotations
 

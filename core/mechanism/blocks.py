@@ -1,7 +1,8 @@
-"""Order in which a sparse system of a mechanism is solved block by block, as its groups of links hang together.
+"""The order in which the sparse system of equations of a mechanism is solved block by block.
 
-A mechanism is a chain of groups, each of which could be solved alone once those that hang on it are known. The
-structure alone tells them: a perfect matching of equations and unknowns, and its strongly connected parts.
+A mechanism is a chain of groups of links; each group can be solved once the groups it depends on are solved. The
+order follows from the structure alone: a perfect matching of equations and unknowns, and its strongly connected
+parts.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What closes links: a pin that joins two of them, and a rod to a slider on a line. Lengths in mm."""
+"""Closures of two links: a pin that joins them, and a rod to a slider on a line. Lengths in mm."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What moves, as one number over the input with its derivatives, and the tables that show it.
+"""Courses: scalar outputs over the input with their derivatives, and the tables that show them.
 
 A course reads the links of a `Mechanism` by name: the angle of a link, a coordinate of one of its points, the angle
-between two links. Tables, curves, extremes and bands of tolerance are made of courses, and the dwell of an output: the
-longest stretch of the input in which it stays within a tolerance.
+between two links. Tables, curves, extremes, tolerance bands and the dwell of an output are computed from courses; a
+dwell is the longest range of the input in which the output stays within a tolerance.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def turned(link: str, against: str = FRAME, sense: float = 1.0) -> Course:
 
 
 def coordinate(link: str, point: complex | str = 0j, along: complex = 1.0) -> Course:
-    """Where a point of a link lies along a direction of the frame [mm].
+    """The coordinate of a point of a link along a direction of the frame [mm].
 
     Parameters
         point : complex [mm] or str - in coordinates of the link, or by its name there
@@ -55,7 +55,7 @@ def _along(vector: Points, along: complex) -> Reals:
 
 
 def between(one: str, other: str) -> Course:
-    """The acute angle between the x axes of two links, 90 deg where they stand across: the transmission angle."""
+    """The acute angle between the x axes of two links, at most 90 deg: the transmission angle."""
 
     def of(mechanism: Mechanism) -> Sequence[Reals]:
         apart = mechanism.links[one].turn.value - mechanism.links[other].turn.value
@@ -81,7 +81,7 @@ class Shown(NamedTuple):
 
 
 def of_output(course: Course, angle: str = "output_angle", speed: str = "output") -> list[Shown]:
-    """Angle, speed and acceleration of a course, as what comes out of the mechanism."""
+    """Angle, speed and acceleration of a course, as the output of the mechanism."""
     return [
         Shown(angle, course),
         Shown("speed_ratio", course, 1, f"{speed}_speed"),
@@ -177,7 +177,7 @@ _LEAST_DWELL = math.radians(2.0)
 
 
 class Dwell(NamedTuple):
-    """The longest stretch of the input in which an output stays within a tolerance.
+    """The longest range of the input in which an output stays within a tolerance.
 
     Fields
         start, width : float [rad] - of the input
@@ -191,7 +191,7 @@ class Dwell(NamedTuple):
 
 
 def longest(q: Reals, y: Reals, tolerance: float, gain: float | None = None) -> Dwell:
-    """The longest stretch in which a course stays within +- tolerance of some value.
+    """The longest range in which a course stays within +- tolerance of some value.
 
     Parameters
         q : (N,) array - equal steps, of a course that goes on without the end of the period
@@ -228,7 +228,7 @@ def longest(q: Reals, y: Reals, tolerance: float, gain: float | None = None) -> 
 
 
 def longest_dwell(motion: Motion, tolerance: float | None = None, *, dwells: bool = False) -> Dwell | None:
-    """The dwell of the first output; None of one that stops nowhere, and where the input does not turn once.
+    """The dwell of the first output; None if it never stops, or if the input does not make a revolution.
 
     Parameters
         tolerance : float or None [rad, mm] - how far it may move to each side; None: a share of its range, of two
@@ -251,7 +251,7 @@ def longest_dwell(motion: Motion, tolerance: float | None = None, *, dwells: boo
 
 
 def gain_of(motion: Motion) -> float | None:
-    """What the first output gains in a period; None of a motion over a range."""
+    """The net displacement of the first output per period; None for a motion over a range."""
     if motion.input.turns is None:
         return None
     ends = motion.outputs[0].course.rates(motion, np.array([motion.input.start, motion.input.end]), 0)[0]

@@ -1,13 +1,13 @@
-"""What errors of parts do to a mechanism: their cost at an output by unit loads, and the mechanism closed exactly.
+"""Effect of errors of the parts on a mechanism: error at an output by unit loads, and the exact closure with errors.
 
-What an error costs at an output is the force under a unit load there, times how far an element stands off. The matrix
-of the forces is the transpose of that of the displacements, so one solution serves every source. An error moves the
-element that a joint has on a link; meshes touch on the flank that carries.
+The error at an output is the joint force under a unit load there times the displacement of the joint element. The
+matrix of the forces is the transpose of that of the displacements, so that one solution serves every source. An error
+moves the element of a joint on its link; meshes touch on the loaded flank.
 
-With errors the mechanism is closed by Newton. Every joint says how far its two elements miss each other where the links
-stand; teeth do so by the involutes of their base circles on one flank, a roller by the parabola of its cam's pitch
-curve. The steps take the transposed matrix of the forces of the mechanism without errors, so that each leaves the share
-error/length of the last.
+With errors the mechanism is closed by Newton's method. For every joint the residual is the distance of its two elements
+at the current positions of the links; teeth use the involutes of their base circles on one flank, a roller the parabola
+of its cam's pitch curve. The steps use the transposed matrix of the forces of the mechanism without errors, so that
+each step reduces the residual to the share error/length of the last.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _SAME_PLACE = 1e-9
 
 @dataclass(frozen=True)
 class Shift:
-    """An error of a part: the elements that some joints have on one link stand elsewhere on it.
+    """An error of a part: the elements of some joints on one link are displaced on it.
 
     Fields
         link : str - a link, or the frame
@@ -71,7 +71,7 @@ class Shift:
     turned: bool = False
 
     def scaled(self, factor: float) -> Shift:
-        """The same per another unit of the error."""
+        """The same shift per another unit of the error."""
         return replace(self, way=self.way * factor)
 
 
@@ -117,12 +117,12 @@ class Dual:
 
     @cached_property
     def touching(self) -> Mechanism:
-        """The mechanism whose meshes touch on the flanks that carry."""
+        """The mechanism whose meshes touch on the loaded flanks."""
         return on_flanks(self.mechanism, self.sides)
 
     @cached_property
     def forces(self) -> Mapping[str, Reals]:
-        """By joint its unknowns under the unit load, (unknowns, N)."""
+        """By joint: its unknowns under the unit load, (unknowns, N)."""
         return self._solved(self.touching)
 
     def _solved(self, mechanism: Mechanism) -> dict[str, Reals]:
@@ -183,7 +183,7 @@ def on_flanks(mechanism: Mechanism, sides: Mapping[str, Reals]) -> Mechanism:
 
 
 def acts_of(column: Column) -> list[Act]:
-    """All that the unit of an unknown puts on links."""
+    """All forces on links by the unit of an unknown."""
     return [
         Act(column.second, column.force, column.at, column.couple),
         *column.also,
@@ -205,7 +205,7 @@ def joints_of(mechanism: Mechanism, link: str, names: Sequence[str]) -> Iterator
 
 
 def elements_at(mechanism: Mechanism, link: str, place: complex) -> tuple[str, ...]:
-    """Names of the pins and meshes whose element on a link stands at a place of it [mm]: what an error there moves."""
+    """Names of the pins and meshes whose element on a link is at a point of it [mm], where an error moves them."""
     body = mechanism.link(link)
     at = place if body is None else body.at(place).value
     found = []
@@ -223,7 +223,7 @@ def elements_at(mechanism: Mechanism, link: str, place: complex) -> tuple[str, .
 
 
 def longer(mechanism: Mechanism, ends: Mapping[str, tuple[str, complex]]) -> dict[str, tuple[Shift, ...]]:
-    """By size, what moves where a link is too long: all that stands at its end, away from its origin.
+    """By size: the elements moved by an error of a link's length, all those at its end opposite to its origin.
 
     Parameters
         ends : by size, a link or the frame and the end of it that the size places, from its origin [mm]
@@ -240,7 +240,7 @@ def longer(mechanism: Mechanism, ends: Mapping[str, tuple[str, complex]]) -> dic
 
 
 def origin_of(link: Link | None) -> Points | complex:
-    """Where the coordinates of a link begin; those of the frame at 0."""
+    """The origin of the coordinates of a link; 0 for the frame."""
     return 0j if link is None else link.origin.value
 
 
@@ -329,7 +329,7 @@ class Chain:
         return size, size, 1.0
 
     def output(self, value: Value, errors: Errors, before: Value | None = None) -> Reals:
-        """By how much errors change a value.
+        """The change of a value by the errors.
 
         Parameters
             value : function of the links, whose arrays are (R, N) - what is looked at
@@ -446,7 +446,7 @@ class _Moved:
                 self._shifts.setdefault((shift.link, joint.name), []).append((shift, error))
 
     def by(self, step: Sequence[Reals]) -> None:
-        """Move the links on, three displacements each."""
+        """Move the links by three displacements each."""
         for k, name in enumerate(self.nominal.links):
             way = np.empty(self.shape, dtype=np.complex128)
             way.real, way.imag = step[3 * k], step[3 * k + 1]
@@ -455,13 +455,13 @@ class _Moved:
             self.spun[name] = _spin(self.turn[name])
 
     def refuse(self, rows: Any) -> None:
-        """Take out what does not come to rest."""
+        """Remove the samples that do not converge."""
         for name in self.nominal.links:
             self.turn[name] = np.where(rows, math.nan, self.turn[name])
             self.place[name] = np.where(rows, math.nan, self.place[name])
 
     def mechanism(self) -> Mechanism:
-        """The links where they stand."""
+        """The links at their current positions."""
         links = {
             name: Link(
                 Point(link.origin.value + self.place[name]), Turn(link.turn.value + self.turn[name]), link.points
@@ -471,7 +471,7 @@ class _Moved:
         return Mechanism(links, (), self.nominal.drive)
 
     def of(self, link: str, joint: str, at: Points | complex) -> Any:
-        """By how much the element that a joint has on a link at a place stands elsewhere [mm]."""
+        """The displacement of the element of a joint on a link [mm]."""
         body, shifts = self.nominal.link(link), self._shifts.get((link, joint))
         if shifts is None and (link == FRAME or at is origin_of(body)):
             return self.place[link]
@@ -497,7 +497,7 @@ class _Moved:
         }
 
     def turned(self, link: str, joint: str) -> Any:
-        """By how much the element has turned too far [rad]."""
+        """The rotation error of the element [rad]."""
         found: Any = self.turn[link]
         for shift, error in self._shifts.get((link, joint), ()):
             if shift.turned:
@@ -505,7 +505,7 @@ class _Moved:
         return found
 
     def gaps(self, joint: Connection) -> Iterator[Any]:
-        """How far the second element misses the first one, by unknown of the joint and in its unit."""
+        """The residual of the second element against the first, by unknown of the joint and in its unit."""
         if isinstance(joint, Flank):
             yield self._flank(joint)
         elif isinstance(joint, Coupling):

@@ -1,7 +1,7 @@
 """Torque by virtual power and all reactions by Newton and Euler, over arrays of input angles.
 
-Both start from the same links; they agree to rounding at every row, which is the check of either. In mm, N and t;
-what is handed out is in kg m^2, N and N m.
+Both use the same links and agree to rounding in every row, so that each checks the other. Computed in mm, N and t;
+results are in kg m^2, N and N m.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ Left = list[dict[int, Factor]]
 
 @dataclass(frozen=True, slots=True)
 class Reduced:
-    """What the input feels.
+    """Inertia and load reduced to the input.
 
     Fields
         inertia : (N,) array [kg m^2] - J(phi)
@@ -83,19 +83,19 @@ class Reduced:
         return np.asarray(self.inertial(speed, acceleration) + self.static)
 
     def inertial(self, speed: Reals | float, acceleration: Reals | float = 0.0) -> Reals:
-        """The part of it that accelerates the masses."""
+        """The part of the input torque that accelerates the masses."""
         return np.asarray(self.inertia * acceleration + 0.5 * self.slope * (speed * np.asarray(speed)))
 
     @property
     def static(self) -> Reals:
-        """The part of it that holds the load, -Q [N m]."""
+        """The part of the input torque that balances the load, -Q [N m]."""
         return np.asarray(-(self.weight + self.applied))
 
 
 def reduced(
     mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, shaft_inertia: float = 0.0
 ) -> Reduced:
-    """Inertia and load as the input feels them.
+    """Inertia and load reduced to the input.
 
     J = sum(m |G'|^2 + J t'^2),  J' = 2 sum(m G'.G'' + J t' t''),  Q = sum m g.G' + sum F.P' + sum T t'
 
@@ -127,7 +127,7 @@ def reduced(
 def power_parts(
     mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, speed: Reals | float
 ) -> Reals:
-    """Sum of the magnitudes of all that adds up to the input torque [N m], whatever cancels in it.
+    """Sum of the magnitudes of all terms of the input torque [N m], before any cancellation.
 
     sum (m |G'| (|G''| w^2 + |g|) + J |t' t''| w^2) + sum |F| |P'| + sum |T t'|
 
@@ -151,7 +151,7 @@ def power_parts(
 
 @dataclass(frozen=True, slots=True)
 class Reactions:
-    """Everything that the links exchange.
+    """All forces and couples between the links.
 
     Fields
         unknowns : by connection - (unknowns, N) array: X and Y of a pin, N and couple of a guide, F_t, N; [N], [N m]
@@ -203,7 +203,7 @@ class System:
         return [self.factors(column) for _, column in self.columns]
 
     def factors(self, column: Column) -> dict[int, Factor]:
-        """What the unit of an unknown adds to each equation."""
+        """The contribution of a unit of an unknown to each equation."""
         found: dict[int, Factor] = {}
         acts = [
             Act(column.second, column.force, column.at, column.couple),
@@ -370,7 +370,7 @@ def _couple(torque: Torque) -> Act:
 def shaking(mechanism: Mechanism, masses: Masses, speed: Reals | float, acceleration: Reals | float = 0.0) -> tuple[
     Points, Reals
 ]:  # fmt: skip
-    """Force [N] and moment about the pivot [N m] that the masses put on the frame.
+    """Shaking force [N] and moment about the pivot [N m] of the masses on the frame.
 
     F = -sum m a,  M = -sum [(G - A) x m a + J al]
     """

@@ -1,8 +1,7 @@
-"""A motion followed from its start in certain steps, so that it never changes over to another of its closings.
+"""A motion followed from its start in proven steps, so that it never changes to another assembly.
 
-A step is as long as Kantorovich's theorem proves that Newton's steps from the tangent lead to the same branch:
-1/(beta (sqrt(K M) + K')), beta = 1/sigma_min of the matrix of the equations. A dead centre shows as a step of no
-length.
+Kantorovich's theorem gives the step length with which Newton's steps from the tangent stay on the same branch:
+1/(beta (sqrt(K M) + K')), beta = 1/sigma_min of the matrix of the equations. At a dead centre this length is 0.
 """
 
 from __future__ import annotations
@@ -51,7 +50,7 @@ class Place:
 
 
 class Follower(Protocol):
-    """What is followed."""
+    """The equations whose solution is followed."""
 
     def closed(self, q: float, near: tuple[float, ...]) -> tuple[float, ...]:
         """The unknowns at an input, from approximate ones.
@@ -65,7 +64,7 @@ class Follower(Protocol):
 
 
 def onwards(follower: Follower, place: Place, end: float) -> Iterator[Place]:
-    """The places after one, up to an input; fewer where a dead centre is met before."""
+    """The places after one, up to an input; fewer if there is a dead centre before it."""
     way = math.copysign(1.0, end - place.q)
     while place.q != end and place.reach >= JAM:
         q = end if place.reach >= abs(end - place.q) else place.q + way * place.reach
@@ -82,16 +81,16 @@ class Refusals(Protocol):
     """In words, why a motion cannot be followed."""
 
     def starts_dead(self) -> NoSolution:
-        """It starts in a dead centre."""
+        """The motion starts in a dead centre."""
 
     def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
-        """It meets a dead centre at q; the other way one at `back`, or none."""
+        """The motion reaches a dead centre at q; in the opposite direction one at `back`, or none."""
 
     def never_home(self) -> NoSolution:
-        """It does not repeat within `MOST_TURNS` turns."""
+        """The motion does not repeat within `MOST_TURNS` revolutions."""
 
     def too_fast(self, q: float, steps: int) -> NoSolution:
-        """So many certain steps lead no farther than to q."""
+        """The maximum number of proven steps leads only to q."""
 
 
 class _Ways(NamedTuple):
@@ -122,7 +121,7 @@ class Walk:
 
     @property
     def turns(self) -> int | None:
-        """Input turns until everything repeats; None over a range.
+        """Input revolutions until the motion repeats; None over a range.
 
         Raises
             NoSolution - where a dead centre is met, or the motion does not repeat

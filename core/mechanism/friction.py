@@ -1,10 +1,10 @@
-"""Friction in pins, guides and meshes, as a fixed point on the reactions; joint forces and what they rub.
+"""Friction in pins, guides and meshes, as a fixed point of the reactions; joint forces and friction losses.
 
-Pins: a couple mu r |F| against the relative turning; guides: mu |N| against the motion; faces and edges on cams: mu N
-against the sliding, at the contact; meshes: a couple
-(1 - eta) |F_t| r on the driven gear against its rolling, that is its turning against the link that carries the axes,
-which takes the opposite: so the driven gear gives eta of the power that the driving one puts in, in the carrier's
-frame. Which gear is driven follows from the signs of tooth force and rolling, row by row.
+Pins: a couple mu r |F| against the relative rotation; guides: mu |N| against the motion; faces and edges on cams: mu N
+against the sliding, at the contact; meshes: a couple (1 - eta) |F_t| r on the driven gear against its rolling, its
+rotation relative to the link that carries both axes, and the opposite couple on that link. Thus in the frame of the
+carrier the driven gear gives eta of the power that the driving gear puts in. Which gear is driven follows from the
+signs of tooth force and rolling, row by row.
 """
 
 from __future__ import annotations
@@ -47,12 +47,13 @@ LOCKED = (
 
 
 class SelfLocking(NoSolution):
-    """With its friction the mechanism locks itself: there are no forces with which it moves."""
+    """The mechanism is self-locking with its friction: no forces exist with which it moves."""
 
 
 @dataclass(frozen=True)
 class Rubbing:
-    """What friction and separating forces do: each has the size of a joint's force, and acts by a response.
+    """The effect of friction and separating forces: each is proportional to the force of a joint and acts by a
+    response.
 
     x = x_0 + sum f_j S_j,  f_j = mu_j |F_j(x)|, or mu_j max(s_j F_j(x), 0) of one side
 
@@ -109,7 +110,7 @@ class Rubbing:
         return np.asarray(self.free + np.einsum("jin,nj->in", self.responses, sizes))
 
     def settled(self) -> Reals:
-        """The sizes that make themselves, (N, m).
+        """The sizes at the fixed point, (N, m).
 
         Raises
             SelfLocking - where no sizes do
@@ -142,7 +143,7 @@ class Rubbing:
         raise SelfLocking(LOCKED, key="loads.friction")
 
     def ratio(self, sizes: Reals) -> Reals:
-        """What passes leave of a disturbance, each of what the one before left, at each row, (N,).
+        """The convergence ratio of the iteration at each row, (N,).
 
         The spectral radius of the rates: no unit that sizes are in changes it, torques of pins beside forces of teeth.
         """
@@ -347,7 +348,7 @@ def settled(
     speed: float,
     friction: Coefficients | None,
 ) -> tuple[Solution, Reals]:
-    """The solution with the rollers that carry once there is friction, and the sizes that make themselves.
+    """The solution with the rollers that are loaded with friction, and the sizes at the fixed point.
 
     Raises
         NoSolution - where the system is singular

@@ -1,8 +1,7 @@
-"""What connects links: pins, guides, teeth, rollers on cams, and the unknown forces that each of them has.
+"""Connections of links: pins, guides, teeth, rollers on cams, and the unknown forces of each.
 
-Lengths in mm, couples in N mm. A connection acts on its second link with the forces named here and on its first link
-with the opposite. The unknowns are linear, so that all of them come out of one system; those that are couples are in
-N m.
+Lengths in mm, couples in N mm. A connection acts on its second link with the forces given here and on its first link
+with the opposite ones. The unknowns are linear, so that one system gives all of them; unknown couples are in N m.
 """
 
 from __future__ import annotations
@@ -111,7 +110,7 @@ class Mesh:
 
     @property
     def pitch_point(self) -> Points:
-        """Where the pitch circles touch."""
+        """The point where the pitch circles touch."""
         return np.asarray(self.center + self.radius * self.toward)
 
     def columns(self) -> list[Column]:
@@ -126,7 +125,7 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Rack:
-    """A rack that a pinion meets: the force along the pitch line, and the separating one.
+    """A rack in mesh with a pinion: the force along the pitch line, and the separating force.
 
     Fields
         center : (N,) array [mm] - of the pinion
@@ -161,7 +160,7 @@ class Rack:
 
 @dataclass(frozen=True)
 class ToothDrive:
-    """A drive by teeth that are there for a part of the turn only; then a lock holds the link.
+    """A drive by teeth on a part of the circumference; elsewhere a lock holds the link.
 
     Fields
         center : (N,) array [mm] - of the driven gear
@@ -181,7 +180,7 @@ class ToothDrive:
 
     @property
     def pitch_point(self) -> Points:
-        """Where the pitch circles touch."""
+        """The point where the pitch circles touch."""
         return np.asarray(self.center + self.mate_radius * self.toward)
 
     def columns(self) -> list[Column]:
@@ -299,7 +298,7 @@ class SharedContact:
 
 @dataclass(frozen=True)
 class Shared:
-    """What joins several links with one another and carries in given shares: one unknown.
+    """A connection of several links that carry in given shares: one unknown.
 
     Fields
         first, second : str - the links that it is counted to

@@ -1,6 +1,6 @@
-"""What a machine is: links that move, and what connects them.
+"""The parts of a machine: moving links and their connections.
 
-Lengths in mm, angles in rad; `FRAME` stands for the frame.
+Lengths in mm, angles in rad; `FRAME` denotes the frame.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ class Mechanism:
         return {}
 
     def once(self, what: str, make: Callable[[], T]) -> T:
-        """What a machine works out of these links: made the first time, and kept with them by its name."""
+        """A result computed from these links once and stored with them by its name."""
         if what not in self._worked_out:
             self._worked_out[what] = make()
         found: T = self._worked_out[what]

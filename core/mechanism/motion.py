@@ -1,6 +1,6 @@
 """The motion of a machine: its links and joints at any input, with derivatives with respect to the input.
 
-What a machine is, is said once, by its `Motion`; tables, curves, animations, clearance, loads and register read it.
+A machine is described once, by its `Motion`, which tables, curves, animations, clearance, loads and register read.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _FEW = 340
 
 @dataclass(frozen=True)
 class Input:
-    """What drives a machine.
+    """The input of a machine.
 
     Fields
         column : str - the first column of its tables
@@ -90,7 +90,7 @@ class Motion:
         return made
 
     def anew(self) -> Motion:
-        """The same motion with nothing kept."""
+        """The same motion without stored results."""
         return replace(self, kept={}, kept_few={})
 
 
@@ -138,7 +138,7 @@ class Course:
 
 
 class Output(NamedTuple):
-    """What a machine moves in the end, under its name.
+    """An output of a machine, with its name.
 
     Fields
         name : str - as sheets and charts show it

@@ -1,7 +1,7 @@
 """Points and angles of moving links with up to three exact derivatives with respect to the input angle.
 
-Everything that a machine needs is built from three pieces: a point carried by a link, and those of `closures`, a pin
-that closes two links and a rod to a slider. Each gives as many derivatives as what it is made of has. Lengths in mm.
+Every mechanism is built from three pieces: a point carried by a link, and the two closures of `closures`, a pin that
+closes two links and a rod to a slider. Each has as many derivatives as its inputs have. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def dot(a: Points | complex, b: Points | complex) -> Reals:
 
 
 def sense_of(first: Reals, second: Reals) -> Reals:
-    """Sign of a rate; where it turns back, which is between two roundings of the angle, the sign just after."""
+    """Sign of a rate; at a reversal, which lies between two rounded angles, the sign just after it."""
     back = np.abs(first) <= TURNING_BACK * np.abs(second)
     return np.asarray(np.sign(np.where(back, second, first)))
 

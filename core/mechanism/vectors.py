@@ -1,6 +1,6 @@
-"""What is drawn on a mechanism besides its links: points by name with their derivatives, instant centres, forces.
+"""Quantities drawn on a mechanism in addition to its links: named points with derivatives, instant centres, forces.
 
-Points are complex numbers in mm in the coordinates of the motion; derivatives are those by the input.
+Points are complex numbers in mm in the coordinates of the motion; derivatives are with respect to the input.
 """
 
 from __future__ import annotations
@@ -205,7 +205,7 @@ def transmission_angles(mechanism: Mechanism, pins: Sequence[str]) -> dict[str, 
 
 
 def least_transmission(*pins: str) -> Course:
-    """The least of the transmission angles at pins of a mechanism; those that it has not are none."""
+    """The minimum transmission angle at pins of a mechanism; pins that it does not have are ignored."""
 
     def of(mechanism: Mechanism) -> list[Reals]:
         return [np.min([np.full(mechanism.rows, math.inf), *transmission_angles(mechanism, pins).values()], axis=0)]

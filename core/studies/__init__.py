@@ -1,1 +1,1 @@
-"""What is asked of any design: loads, register, tolerance, search, clearance."""
+"""Analyses that apply to any design: loads, register, tolerance, search, clearance."""

@@ -1,4 +1,4 @@
-"""What the sources of a machine move: by size, centre distance, pin and gear the elements of its links."""
+"""Effect of the tolerance sources of a machine: the link elements moved by each size, centre distance, pin and gear."""
 
 from __future__ import annotations
 

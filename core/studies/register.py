@@ -1,6 +1,6 @@
 """The register budget of any machine that has a motion: sources, stretch, the two torque signs, tables and checks.
 
-It says what the errors of the parts cost at the first output.
+The register error is that of the first output.
 """
 
 from __future__ import annotations

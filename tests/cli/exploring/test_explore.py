@@ -84,7 +84,7 @@ def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_
 def test_none_feasible_is_exit_1_and_a_warning_is_with_strict(gearlink: Any, written: Any) -> None:
     ended = gearlink("explore", written(where=["frame_length <= 2 mm"]), "--format", "json")
     assert (ended.status, ended.json["ok"]) == (1, False)
-    assert "frame_length <= 2 mm alone removes 31" in ended.json["checks"][0]["message"]
+    assert "frame_length <= 2 mm alone excludes 31" in ended.json["checks"][0]["message"]
     study = written(variables={"gears.idler": {"from": 60, "to": 61}})
     assert [gearlink("explore", study, *more).status for more in ((), ("--strict",))] == [0, 1]
 

@@ -240,7 +240,7 @@ def test_given_links_are_judged() -> None:
 def test_search_without_a_result_is_refused_with_the_key() -> None:
     keys = {"target__function__output_swing": 350, "target__function__input_swing": 20}
     made = design("five_bar_function", limits__transmission_angle=85, **keys)
-    with pytest.raises(NoSolution, match=r"lower limits\.transmission_angle") as caught:
+    with pytest.raises(NoSolution, match=r"reduce limits\.transmission_angle") as caught:
         _ = made.function_bar
     assert caught.value.key == "target.function"
 

@@ -154,7 +154,7 @@ def test_without_a_cam_nothing_is_known_outside_the_zone() -> None:
         for column in tables[0].columns[2:]:
             assert np.isfinite(tables[0][column]).tolist() == inside.tolist()
             assert tables[0][column][inside].tolist() == tables[1][column][inside].tolist()
-    with pytest.raises(MissingSection, match="at 200 deg nothing says where the lower rack stands") as refused:
+    with pytest.raises(MissingSection, match="at 200 deg the position of the lower rack is not known") as refused:
         register(cam=None, register={"at": 200.0}).report("register")
     assert refused.value.key == "cam"
     assert register(cam=None, register={"at": 60.0}).worst == register(register={"at": 60.0}).worst
