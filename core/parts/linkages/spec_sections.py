@@ -92,7 +92,7 @@ def require_function(
         message += "give exponent" if name == "power" else "omit exponent"
         raise refused(message, "exponent")
     if x is not None and x[0] == x[1]:
-        raise refused("x is the same at both ends\ngive an interval", "x[1]")
+        raise refused("x has the same value at both ends\ngive an interval", "x[1]")
     if output_swing == 0.0:
         raise refused("a function needs a moving output\ngive output_swing above or below 0", "output_swing", "GL108")
 
