@@ -64,7 +64,7 @@ def _beside_bed(design: PressLoads, at: _Places, direction: float) -> Check:
     radius = design.spec.cylinder.radius
     room = at.pitch_line - at.cylinder.real - radius
     fix = _DRAWN if design.section.bed_side > 0 else _clear(design, at, direction)
-    what = "cylinder to the pitch line of the bed's rack"
+    what = "distance of the cylinder from the pitch line of the bed's rack"
     shown: Shown | None = NO_NUMBER
     if at.cylinder.real >= at.pitch_line:
         what = "the surface of the cylinder runs against the bed"
@@ -177,7 +177,7 @@ class PressLoads(CamLoadsDesign):
         across, up = gears.horizontal_distance, bed.double_crank.frame - bed.offset
         wanted = math.degrees(math.atan2(across, up))
         off, nearest = min((abs(math.remainder(given - at, 360.0)), at) for at in (wanted, -wanted))
-        what = "loads.gear_1_direction against the direction of the axes"
+        what = "deviation of loads.gear_1_direction from the direction of the axes"
         fix = f"set loads.gear_1_direction to {short(nearest)} deg"
         status: Status = "warn" if off > _NEAR else "pass"
         yield PLACE.check(status, what, off, _NEAR, "deg", name=PLACE.checks[1], side="<=", fix=fix)

@@ -68,7 +68,7 @@ def beside(link: str, axis: Axis, distance: float, remedy: str, end: str = _ENDS
     if distance >= axis.radius * (1.0 - _TOUCHING):
         return
     value, limit = (distance - axis.radius, 0.0) if axis.named else (distance, axis.radius)
-    what, fix = f"{link} to {axis.words}", remedy or end
+    what, fix = f"distance of {link} from {axis.words}", remedy or end
     if distance <= _TOUCHING * axis.radius:
         what, shown = f"{link} passes over {axis.words}", NO_NUMBER
     else:

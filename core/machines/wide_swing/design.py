@@ -1198,7 +1198,7 @@ class WideSwingDesign(Design):
                     fix = f"use a shaft_radius of at most {safely_below(bottom / HUB)} mm"
             yield SHAFT_CLEARANCE.check(
                 status,
-                f"roller of the {words} to the cam shaft",
+                f"distance of the roller of the {words} from the cam shaft",
                 room,
                 0.0,
                 "mm",

@@ -334,7 +334,7 @@ def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
     )
     yield INTERFERENCE.check(
         found.status,
-        f"{tip} to the mating gear's base tangent point",
+        f"{gear.named('distance of the tip of ')} from the mating gear's base tangent point",
         found.value,
         0.0,
         "mm",

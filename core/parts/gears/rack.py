@@ -258,8 +258,9 @@ def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
 
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
-    what = "rack's tip {} the base tangent point of gear 1"
-    yield _judged(INTERFERENCE, (what.format("to"), what.format("beyond")), rack.path.start, 0.0)
+    point = "the base tangent point of gear 1"
+    words = f"distance of the rack's tip from {point}", f"rack's tip beyond {point}"
+    yield _judged(INTERFERENCE, words, rack.path.start, 0.0)
 
 
 def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:

@@ -55,7 +55,7 @@ def test_the_frame_of_the_theory_warns_and_does_not_fail() -> None:
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"cylinder_direction": -140}, "cylinder to the pitch line of the bed's rack: 8.36"),
+        ({"cylinder_direction": -140}, "distance of the cylinder from the pitch line of the bed's rack: 8.36"),
         ({"cylinder_direction": -130}, "overlap of the cylinder and the pitch line of the bed's rack: 25.1"),
         ({"cylinder_direction": 0}, "runs against the bed"),
         ({"cylinder_direction": 150, "bed_side": 1}, "on the side of the pinion"),
@@ -67,7 +67,7 @@ def test_where_the_cylinder_lies_is_told(keys: dict[str, Any], words: str) -> No
     """53 + 272 sin 50 deg - 140 - 113 = 8.364 mm, 40 deg instead: -25.16; 272 sin 47.33 deg = 200."""
     first, *_ = _places(_press(**{f"loads__{name}": value for name, value in keys.items()}))
     assert words in first[1]
-    assert first[0] == ("pass" if first[1].startswith("cylinder to the pitch line") else "warn")
+    assert first[0] == ("pass" if first[1].startswith("distance of the cylinder from the pitch line") else "warn")
 
 
 def test_the_directions_that_are_named_are_clear_to_the_tenth() -> None:

@@ -54,7 +54,7 @@ def test_a_device_over_the_cam_shaft_is_warned_of() -> None:
 
 def test_a_device_round_its_own_rocker_is_warned_of() -> None:
     design = factory.design("wide_swing_twin_cam", unloader__arm=3)
-    assert only(design, "the device to the rocker's axis: 3 mm") == pytest.approx(3.0, rel=1e-12)
+    assert only(design, "distance of the device from the rocker's axis: 3 mm") == pytest.approx(3.0, rel=1e-12)
     assert "set unloader.arm to at least 8 mm" in next(iter(told(design)))
     assert not told(factory.design("wide_swing_twin_cam", unloader__arm=8))
 
@@ -65,15 +65,18 @@ def test_a_device_round_its_own_rocker_is_warned_of() -> None:
     [
         (
             (1, 10, 2.4, 10.225),
-            ["pin C of the drive to the cam shaft: 2.4 mm", "the crank's axis to the cam shaft: 10.22 mm"],
+            [
+                "distance of pin C of the drive from the cam shaft: 2.4 mm",
+                "distance of the crank's axis from the cam shaft: 10.22 mm",
+            ],
         ),
         (
             (10, 100, 24, 102.25),
-            ["pin C of the drive to the cam shaft: 24 mm", "overlap of the cam and the crank's axis"],
+            ["distance of pin C of the drive from the cam shaft: 24 mm", "overlap of the cam and the crank's axis"],
         ),
         (
             (10.5, 105, 25.2, 107.3625),
-            ["the coupler of the drive to the cam shaft", "overlap of the cam and the crank's axis"],
+            ["distance of the coupler of the drive from the cam shaft", "overlap of the cam and the crank's axis"],
         ),
     ],
 )
@@ -95,7 +98,9 @@ def test_an_arm_that_turns_over_the_cam_shaft_is_warned_of() -> None:
         "cam": {"center_distance": 150, "roller_radius": 1, "shaft_radius": 110, "free_clearance": 0.1},
         "limits": {"pressure_angle": 55},
     }
-    value = only(factory.design(spec), "the arm of the internal profile's roller to the cam shaft: 106 mm")
+    value = only(
+        factory.design(spec), "distance of the arm of the internal profile's roller from the cam shaft: 106 mm"
+    )
     assert value == pytest.approx(150.0 * math.sin(math.radians(135.0)) - 110.0, rel=1e-12)
 
 
