@@ -437,7 +437,9 @@ GEAR_PAIR = {
         "j_wt min, max", "mm", "backlash on the working circles, minimum and maximum", "DIN 3967"
     ),
     "backlash_normal": Term("j_bn min, max", "mm", "backlash between the flanks, minimum and maximum", "DIN 3967"),
-    "backlash_angle": Term("j_phi min, max", "deg", "free rotation of each gear with the other held, minimum and maximum"),
+    "backlash_angle": Term(
+        "j_phi min, max", "deg", "free rotation of each gear with the other held, minimum and maximum"
+    ),
     "output_play": Term(
         "j_out", "deg", "free rotation of the output gear with the input held, over all teeth; minimum and maximum"
     ),
