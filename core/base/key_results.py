@@ -145,8 +145,7 @@ def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tu
     named = [(name.lstrip("?"), asked) for name, asked in answers if asked or not name.startswith("?")]
     for name, asked in named:
         value, how = asked or (None, "")
-        for each in _matching(name, shown):
-            quantity = each if asked else _greater_extreme(each, shown, [other for other, _ in named])
+        for quantity in _matching(name, shown) if asked else _greater_extremes(name, shown, [each for each, _ in named]):
             found.setdefault(quantity.name, KeyResult(quantity, value, how, design.titles.get(quantity.name, "")))
     for quantity in shown.values():
         if len(found) >= FEWEST:
@@ -165,12 +164,21 @@ def _matching(name: str, shown: dict[str, Quantity]) -> Iterable[Quantity]:
     return (_largest(like),)
 
 
-def _greater_extreme(quantity: Quantity, shown: dict[str, Quantity], named: Sequence[str]) -> Quantity:
-    """The quantity, or of a maximum the minimum that is greater, if the key results do not name it anyhow."""
-    least = shown.get(f"{quantity.name.removesuffix('_max')}_min") if quantity.name.endswith("_max") else None
-    if least is None or any(fnmatchcase(least.name, name) for name in named):
-        return quantity
-    return _largest((quantity, least))
+def _greater_extremes(name: str, shown: dict[str, Quantity], named: Sequence[str]) -> Iterable[Quantity]:
+    """Those that a name matches; of a maximum and its minimum, which the key results do not name, the greater one.
+
+    A report of some quantities may have one of the two alone, which it was asked for.
+    """
+    if "*" not in name:
+        return _greater(name, shown, named)
+    return [each for quantity in _matching(name, shown) for each in _greater(quantity.name, shown, named)]
+
+
+def _greater(name: str, shown: dict[str, Quantity], named: Sequence[str]) -> Iterable[Quantity]:
+    least = f"{name.removesuffix('_max')}_min" if name.endswith("_max") else ""
+    ends = (name,) if any(fnmatchcase(least, each) for each in named) else (name, least)
+    there = [shown[end] for end in ends if end in shown]
+    return (_largest(there),) if there else ()
 
 
 def _largest(quantities: Sequence[Quantity]) -> Quantity:
