@@ -145,7 +145,8 @@ def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tu
     named = [(name.lstrip("?"), asked) for name, asked in answers if asked or not name.startswith("?")]
     for name, asked in named:
         value, how = asked or (None, "")
-        for quantity in _matching(name, shown) if asked else _greater_extremes(name, shown, [each for each, _ in named]):
+        meant = _matching(name, shown) if asked else _greater_extremes(name, shown, [each for each, _ in named])
+        for quantity in meant:
             found.setdefault(quantity.name, KeyResult(quantity, value, how, design.titles.get(quantity.name, "")))
     for quantity in shown.values():
         if len(found) >= FEWEST:
