@@ -26,6 +26,7 @@ _MOST_BINS = 60
 _NOTHING = 1e-12  # of the motion
 _ROUNDING = 1e-12  # of a quantity that is 0 [mm, deg]
 _LETTERS = 39  # below a histogram
+_STILL = "no tolerance of this file changes a result"
 
 
 def draw(study: ToleranceStudy) -> Figure:
@@ -41,7 +42,7 @@ def draw(study: ToleranceStudy) -> Figure:
         _histogram(made.add_subplot(grid[row, 0]), study, name)
         _contributions(made.add_subplot(grid[row, 1]), study, name)
     if not names:
-        panels.message(made.add_subplot(grid[0, :]), "nothing varies", 10)
+        panels.message(made.add_subplot(grid[0, :]), _STILL, 10)
     for i, course in enumerate(courses, start=max(1, len(names))):
         _course(made.add_subplot(grid[i, :]), course)
     return made
@@ -192,10 +193,12 @@ def draw_tornado(design: Any) -> Figure:
     names = [name for name, rows in found.items() if _is_moved(rows, nominal[name])][:_MOST]
     bars = min(_MOST_BARS, len(study.problem.sources))
     each = max(_LEAST_SHARE, 0.05 + 0.022 * bars)
-    made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + len(names) * each)
+    made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + max(len(names), 1) * each)
     grid = made.add_gridspec(max(len(names), 1), 1)
     for row, name in enumerate(names):
         _panel(made.add_subplot(grid[row, 0]), study, name, found[name], nominal[name])
+    if not names:
+        panels.message(made.add_subplot(grid[0, 0]), _STILL, 10)
     return made
 
 

@@ -203,6 +203,18 @@ def test_a_tornado_has_no_panel_of_rounding() -> None:
     assert not any("agreement" in title for title in titles)
 
 
+def test_sheets_say_that_no_tolerance_changes_a_result() -> None:
+    """A face width, of which no result of the tolerances depends, left an empty tornado."""
+    made = design(
+        "gear_pair",
+        face_width=20.0,
+        tolerance={"sources": {"face_width": {"plus_minus": 0.1}}, "require": ["contact_ratio >= 1"], "samples": 128},
+    )
+    words = "no tolerance of this file changes a result"
+    assert [text.get_text() for text in tolerance.draw_tornado(made).axes[0].texts] == [words]
+    assert [text.get_text() for text in tolerance.draw(made.of_command("tolerance")).axes[0].texts] == [words]
+
+
 def test_two_limits_have_one_name_in_the_legend_of_a_tornado() -> None:
     (axes,) = tolerance.draw_tornado(design("slider_crank_tolerances")).axes
     words = axes.get_legend_handles_labels()[1]
