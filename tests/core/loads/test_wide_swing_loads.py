@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from pathlib import Path
@@ -154,3 +155,46 @@ def test_a_stroke_ends_before_its_friction_turns_back(name: str) -> None:
     force = np.asarray(made.table("contact_stroke", samples=1000)["main_force"], dtype=float)
     steps = np.abs(np.diff(force[-20:]))
     assert steps[-1] < 3.0 * steps[:-1].max()
+
+
+def _least_force(made: Any, speed: float) -> float:
+    """Minimum force of the roller at another speed of the cam with the same device, without friction [N]."""
+    machine = dataclasses.replace(made.machine, speed=speed * math.pi / 30.0, friction=None)
+    places = [(each, np.linspace(*part, 2001)) for each in made.strokes for part in each.parts]
+    return min(float(machine.reactions(each.pressing_angle(k)).unknowns["roller"][0].min()) for each, k in places)
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("loaded_swing_slider", {}),
+        ("loaded_swing_slider", {"forces": [], "links": {}, "gravity": [0.0, -0.5]}),
+        ("loaded_oscillating_cam", {"forces": [{"on": "rocker", "torque": 0.5}]}),
+        ("loaded_swing_cycle", {"forces": [{"on": "rocker", "torque": -0.5}]}),
+    ],
+    ids=["resistance", "weight", "drive", "cycle"],
+)
+def test_the_roller_is_without_force_at_the_speed_of_lift_off(name: str, changes: dict[str, Any]) -> None:
+    """The speed out of forces at rest and of the masses, against the forces at that speed; 1e-9 of some 100 N."""
+    made = factory.design(name, command="loads", **{f"loads__{key}": value for key, value in changes.items()})
+    assert made.lift_off_speed < made.design.unloading.lift_off_speed
+    assert _least_force(made, made.lift_off_speed) == pytest.approx(0.0, abs=1e-7)
+
+
+def test_the_share_that_the_device_misses_counts_in_lift_off() -> None:
+    """Next to nothing acts besides: the closed form n0 sqrt(1 + rho - f)."""
+    made = factory.design("loaded_wide_swing", command="loads", loads__forces=[{"on": "rocker", "torque": -1e-7}])
+    assert made.spec.unloader.residual > 0.0
+    assert made.lift_off_speed == pytest.approx(made.design.unloading.lift_off_speed, rel=1e-8)
+    assert made.lift_off_speed != made.design.unloading.lift_off_speed
+    pushed = factory.design("loaded_wide_swing", command="loads", loads__forces=[{"on": "rocker", "torque": -500.0}])
+    assert pushed.lift_off_speed == 0.0
+
+
+def test_the_weight_of_a_slider_counts_in_the_force_of_its_roller() -> None:
+    """Without other loads: against the maximum of the table, 108 N; 34 N are those of inertia and device."""
+    changes = {"forces": [], "links": {}, "gravity": [0.0, -9.81]}
+    made = factory.design("loaded_swing_slider", command="loads", **{f"loads__{k}": v for k, v in changes.items()})
+    force = np.asarray(made.table("contact_stroke", samples=4000)["main_force"], dtype=float)
+    assert made.contact_force_max == pytest.approx(np.nanmax(np.abs(force)), rel=1e-3)
