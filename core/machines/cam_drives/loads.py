@@ -64,7 +64,19 @@ class LinkedCamsSection(Loads):
     links: LinkedMasses = Field(LinkedMasses.model_construct(), description=_NOTHING)
 
 
-class CamGearLoads(LoadsDesign):
+class GroovedLoads(LoadsDesign):
+    """What both drives with a groove have: an output that stands where the file says so."""
+
+    stands = True
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The dwells of the file."""
+        found: list[tuple[float, float]] = self.design.output_motion.dwells
+        return found
+
+
+class CamGearLoads(GroovedLoads):
     """Input angle: the carrier's, from +x."""
 
     kind = "cam-gear"
@@ -76,7 +88,7 @@ class CamGearLoads(LoadsDesign):
     design: cached_property[CamGear] = geometry(CamGear)
 
 
-class CamLinkageLoads(LoadsDesign):
+class CamLinkageLoads(GroovedLoads):
     """Input angle: that of AB, from +x."""
 
     kind = "cam-linkage"

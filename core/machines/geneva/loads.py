@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from pydantic import Field
@@ -10,7 +11,8 @@ from gearlink.core.base.design import geometry
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.geneva.design import GenevaDrive
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.mechanism.motion import TURN
+from gearlink.core.studies.loads.design import LoadsDesign, homecoming, is_directed, loads_outline
 from gearlink.core.studies.loads.spec import Body, Loads
 
 if TYPE_CHECKING:
@@ -43,3 +45,27 @@ class GenevaLoads(LoadsDesign):
     stands = True
     outlines = loads_outline(pins, meshes)
     design: cached_property[GenevaDrive] = geometry(GenevaDrive)
+
+    @property
+    def turns(self) -> int:
+        """Crank turns until the wheel is home, where its direction matters."""
+        if not is_directed(self.section, "wheel"):
+            return 1
+        turns = self.spec.slots // math.gcd(self.spec.slots, self.spec.pins)
+        return homecoming(turns, "the wheel is back in its initial position", "slots", "balance the wheel")
+
+    @property
+    def motion_turns(self) -> int:
+        """The steps repeat with every turn of the crank."""
+        return 1
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The dwell after each step."""
+        design, pitch = self.design, TURN / self.spec.pins
+        if design.locking_angle <= 0.0:
+            return []
+        return [
+            (0.5 * design.motion_angle + step * pitch, design.locking_angle)
+            for step in range(self.spec.pins * self.turns)
+        ]

@@ -103,6 +103,12 @@ class OutputMotion:
         """Input angles at which the law changes [rad]."""
         return self._base.joints
 
+    @property
+    def dwells(self) -> list[tuple[float, float]]:
+        """Start and width of the segments in which the output stands [rad]; a spline has none."""
+        strokes = () if self.even else self._base.strokes
+        return [(stroke.start, stroke.end - stroke.start) for stroke in strokes if stroke.sense == 0]
+
     def evaluate(self, theta: Reals, order: int = 3, *, side: int = 1) -> list[Reals]:
         """Output angle and its derivatives by the input angle [rad], running on over its turns."""
         import numpy as np

@@ -476,8 +476,9 @@ class Vibrating:
 
     @cached_property
     def lift(self) -> float:
-        """Maximum less minimum place over the period [deg or mm]."""
-        low, high = self.design.extremes_of([(self.place, False), (self.place, True)])
+        """Maximum less minimum place over the output's own period [deg or mm]."""
+        wanted, joints = [(self.place, False), (self.place, True)], self._breaks
+        low, high = extremes_over(wanted, 0.0, self.period, joints=joints, samples=360 * self.design.motion_turns)
         return high.value - low.value
 
     @cached_property

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 from factory import design, worked
+from scipy.integrate import solve_ivp
 
 FIVE_BAR = {
     "kind": "geared-five-bar",
@@ -69,3 +71,54 @@ def test_a_range_does_not_narrow_what_loads_looks_at() -> None:
     sine = np.sin(links["follower"].turn.value - links["output"].turn.value)
     assert loads.transmission_angle == pytest.approx(float(np.arcsin(np.abs(sine).min())), abs=1e-5)
     assert loads.transmission_angle < loads.design.min_transmission_angle - 0.05
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(
+    ("name", "start", "end"),
+    [("loaded_geneva", -60.0, 60.0), ("loaded_cam_gear", 120.0, 360.0)],
+    ids=["geneva", "cam-gear"],
+)
+def test_the_residual_of_a_step_against_an_integration(name: str, start: float, end: float) -> None:
+    """The output on its spring from rest over one step, by time; the integrator is asked for 1e-10."""
+    made = design(name, command="loads", loads__vibration={"frequency": 12.0, "damping": 0.02})
+    speed, damping, frequency = made.speed, 0.02, 2.0 * math.pi * 12.0
+    first, last = (math.radians(angle) / speed for angle in (start, end))
+
+    def rates(time: float, state: list[float]) -> list[float]:
+        angle = np.mod(np.array([speed * time]), 2.0 * math.pi)
+        bend = float(made.machine.at(angle).links[made.output].turn.second[0]) * speed**2
+        return [state[1], -bend - 2.0 * damping * frequency * state[1] - frequency**2 * state[0]]
+
+    # the ends themselves belong to the dwells
+    inner = 1e-9
+    found = solve_ivp(rates, (first + inner, last - inner), [0.0, 0.0], rtol=1e-10, atol=1e-14, max_step=2e-3)
+    place, rate = found.y[:, -1]
+    free = (rate + damping * frequency * place) / (frequency * math.sqrt(1.0 - damping**2))
+    assert made.residual_amplitude == pytest.approx(math.hypot(place, free), rel=1e-6)
+    assert made.rise_periods == pytest.approx(12.0 * (last - first), rel=1e-12)
+
+
+@pytest.mark.parametrize("pins", [1, 2])
+def test_a_wheel_out_of_balance_is_looked_at_until_it_is_home(pins: int) -> None:
+    """Its weight gives nothing over the whole period; the dwells are those of every step."""
+    body = {"mass": 4.0, "inertia": 0.02, "center": [20.0, 5.0]}
+    changes = {"loads__links": {"wheel": body}, "loads__gravity": [0.0, -9.81], "loads__forces": []}
+    made = design("loaded_geneva", command="loads", slots=10, pins=pins, locking_radius=None, **changes)
+    assert (made.turns, len(made.quiet_zones)) == (10 // math.gcd(10, pins), 10 * pins // math.gcd(10, pins))
+    weight = made.machine.mean(lambda phi: made.machine.reduced(phi).weight)
+    assert weight == pytest.approx(0.0, abs=1e-12)
+    turns = [made.machine.torque(np.radians(np.arange(0.0, 360.0, 0.5) + 360.0 * k)) for k in range(made.turns)]
+    assert np.abs(turns[1] - turns[0]).max() > 0.1 * made.input_torque_max
+    assert made.input_torque_max >= np.max(turns)
+    assert made.input_torque_min <= np.min(turns)
+
+
+def test_the_teeth_of_a_cam_gear_must_not_change_flanks_in_the_dwell() -> None:
+    """A torque that changes its sign in the dwell of the file, 0 to 120 deg."""
+    torque = {"zones": [{"from": 60, "to": 240, "value": 8.0}]}
+    changes = {"loads__forces": [{"on": "sun", "torque": -4.0}, {"on": "sun", "torque": torque}]}
+    made = design("loaded_cam_gear", command="loads", loads__backlash=0.05, **changes)
+    assert [check.status for check in made.check("load-reversal")] == ["fail"]
+    assert made.is_quiet(math.radians(60.0))
+    assert not made.is_quiet(math.radians(240.0))
