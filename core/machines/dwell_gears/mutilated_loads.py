@@ -81,8 +81,18 @@ class MutilatedGearLoads(LoadsDesign):
 
     @property
     def shaft_inertia(self) -> float:
-        """The wheel's, which turns once in `reduction` input turns."""
-        return mass_of(of_body(self.section.links, "wheel")).inertia / self.design.reduction**2
+        """The wheel's, which turns once in `reduction` input turns.
+
+        Raises
+            NoSolution - of a wheel out of balance: its weight and its force on W are in no result
+        """
+        wheel = mass_of(of_body(self.section.links, "wheel"))
+        if wheel.mass and wheel.center:
+            message = "the wheel is taken as balanced, so its centre of mass lies on its axis"
+            raise NoSolution(
+                message, key="loads.links.wheel.center", fix="omit it, and add mass times center^2 to inertia"
+            )
+        return wheel.inertia / self.design.reduction**2
 
     @property
     def own_joints(self) -> list[float]:

@@ -131,8 +131,7 @@ def harmonics(design: LoadsDesign, samples: int | None = None) -> Table:
     w_n, zeta = vibrating.oscillator.frequency, vibrating.oscillator.damping
     at = order * abs(machine.speed)
     transfer = np.abs(w_n**2 - at**2 + 2j * zeta * w_n * at)
-    mass = design.masses.get(design.output)
-    inertia = 0.0 if mass is None else mass.tonnes if vibrating.slides else np.radians(mass.inertia)
+    inertia = vibrating.swung / 1e3 if vibrating.slides else np.radians(vibrating.swung)
     columns = {
         "order": (order, "1"),
         "frequency": (at / (2.0 * np.pi), "Hz"),

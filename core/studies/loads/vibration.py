@@ -18,6 +18,8 @@ import numpy as np
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.torsion import torsional_stiffness
+from gearlink.core.mechanism.joints import NEWTON_METER, Pin
+from gearlink.core.mechanism.links import FRAME
 from gearlink.core.mechanism.rates import dot
 from gearlink.core.numerics.arrays import Points, Reals, distinct
 from gearlink.core.numerics.extremes import extremes_over
@@ -338,11 +340,25 @@ class Vibrating:
         """Whether the output slides."""
         return self.design.output in self.design.sliding
 
+    @property
+    def swung(self) -> float:
+        """Mass of the output [kg], or I + m c^2 about its pin on the frame [kg m^2]; 0 where the file gives none."""
+        design = self.design
+        mass = design.masses.get(design.output)
+        if mass is None or self.slides:
+            return 0.0 if mass is None else mass.mass
+        mechanism = design.machine.at(np.zeros(1))
+        axes = [each.at[0] for each in mechanism.connections
+                if isinstance(each, Pin) and (each.first, each.second) == (FRAME, design.output)]  # fmt: skip
+        if not axes:
+            return mass.inertia
+        off = abs(mechanism.links[design.output].at(mass.center).value[0] - axes[0])
+        return float(mass.inertia + mass.mass * (off / NEWTON_METER) ** 2)
+
     @cached_property
     def inertia(self) -> float:
-        """Mass [kg] or moment of inertia [kg m^2] of the output."""
-        mass = self.design.masses.get(self.design.output)
-        found = 0.0 if mass is None else mass.mass if self.slides else mass.inertia
+        """Mass [kg] or moment of inertia about its axis [kg m^2] of the output."""
+        found = self.swung
         if found == 0.0 and self.section.stiffness is not None:
             what = "mass" if self.slides else "inertia"
             raise MissingSection(

@@ -224,3 +224,18 @@ def test_a_follower_that_stands_vibrates_not() -> None:
     """What is left of its motion was divided by a lift of 0."""
     made = factory.design("loaded_cam", command="loads", motion=[{"to": 100, "lift": 0}, {"to": 360, "lift": 0}])
     assert [check.status for check in made.check("rigid-model")] == ["pass"]
+
+
+def test_a_mutilated_wheel_out_of_balance_is_refused() -> None:
+    """Neither its weight nor its force on W is in any result; on its axis the mass adds nothing to the inertia."""
+    loads: dict[str, Any] = {"speed": 60, "links": {"rocker": {"mass": 1.5, "inertia": 0.01}}}
+
+    def made(wheel: dict[str, Any]) -> Any:
+        links = {**loads["links"], "wheel": wheel}
+        return factory.design("mutilated_gear_press", command="loads", loads={**loads, "links": links})
+
+    balanced = made({"mass": 3.0, "inertia": 0.02, "center": [0.0, 0.0]})
+    assert balanced.reflected_inertia_max == made({"inertia": 0.02}).reflected_inertia_max
+    with pytest.raises(GearlinkError) as caught:
+        made({"mass": 3.0, "inertia": 0.02, "center": [10.0, 0.0]}).report("loads")
+    assert caught.value.key == "loads.links.wheel.center"

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.mechanism.dynamics import reduced
 from gearlink.core.parts.cams.laws import law
 from gearlink.core.studies.loads.vibration import Oscillator, Panelled, PeriodicResponse, harmonics, speed_limit
 
@@ -214,6 +215,21 @@ def test_stiffness_with_the_output_s_inertia_is_a_frequency() -> None:
     by_stiffness = feed(stiffness=0.016 * (2.0 * math.pi * 40.0) ** 2)
     assert by_stiffness.natural_frequency == pytest.approx(40.0, rel=1e-12)
     assert by_stiffness.dwell_twist == pytest.approx(feed(frequency=40.0).dwell_twist, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["loaded_six_bar", "crank_rocker_links"])
+def test_an_output_vibrates_about_its_axis(name: str) -> None:
+    """Its centre of mass lies 40 mm from it: against the inertia that the input feels of it, and the table's torque."""
+    made = factory.design(name, command="loads", loads__vibration={"stiffness": 500.0})
+    phi = np.array([1.0])
+    links, mass = made.machine.at(phi), made.masses[made.output]
+    assert abs(mass.center) == 40.0
+    felt = reduced(links, {made.output: mass}, [], 0j).inertia[0] / links.links[made.output].turn.first[0] ** 2
+    assert made.natural_frequency == pytest.approx(math.sqrt(500.0 / felt) / (2.0 * math.pi), rel=1e-9)
+    by_frequency = factory.design(name, command="loads", loads__vibration={"frequency": made.natural_frequency})
+    table = by_frequency.table("harmonics")
+    wanted = harmonics(made.vibrating.bend(np.linspace(0.0, made.machine.period, 720, endpoint=False)), 5)
+    assert table["torque"][:5] == pytest.approx(np.radians(wanted) * made.speed**2 * felt, rel=1e-9)
 
 
 def test_harmonics_of_a_table_give_the_motion_back() -> None:
