@@ -466,7 +466,8 @@ def _run(stroke: SwingStroke, exponent: float) -> Reals:
     """int F^p |n| dt and int |n| dt over a stroke, per revolution of the input [N^p rad, rad]."""
     found = np.zeros(2)
     for first, last in stroke.parts:
-        panels = Panels.over(last - first, (), (last - first) / _RUN_PANELS)
+        inside = [place - first for place in stroke.joints if first < place < last]
+        panels = Panels.over(last - first, inside, (last - first) / _RUN_PANELS)
         k = first + panels.nodes
         turned = np.abs(stroke.bearing_speed(k)) * stroke.width / abs(stroke.loads.speed)
         force = np.abs(stroke.force(k))
