@@ -194,7 +194,7 @@ def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
 
 
 def put(data: Any, path: str, value: Any) -> None:
-    """Set a value in the data of a design file; sections that are missing are made.
+    """Set a value in the data of a design file; sections that are missing, or empty, are made.
 
     Raises
         LookupError, TypeError - where the path leads through something that is no section, or beyond a list
@@ -207,7 +207,9 @@ def put(data: Any, path: str, value: Any) -> None:
     """
     *sections, last = _steps(path)
     for step in sections:
-        data = data[step] if isinstance(step, int) else data.setdefault(step, {})
+        if not isinstance(step, int) and data.setdefault(step, {}) is None:
+            data[step] = {}
+        data = data[step]
     data[last] = value
 
 

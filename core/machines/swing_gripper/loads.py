@@ -15,6 +15,7 @@ import numpy as np
 from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.machines.swing_gripper.motion import require
 from gearlink.core.mechanism.joints import NEWTON_METER
@@ -151,10 +152,18 @@ class GripperLoads(CamLoadsDesign):
 
     @property
     def lacking_spring(self) -> tuple[str, float] | None:  # type: ignore[override]
-        """The torque that unloads a roller most [N m]; None with a spring."""
-        if self.spec.spring is not None:
+        """The torque that a roller lacks most, by all that acts [N m]; None with a spring."""
+        key = "spring.torque"
+        spec = None if self.spec.spring is not None else changed(self.given, ((key, 1.0),))
+        if spec is None:
             return None
-        return "spring.torque", max(worst.value for worst in self.design.closure.worst_unloading)
+        sprung: Any = self.varied(spec)
+
+        def lacking(name: str, phi: Reals) -> Reals:
+            force = self.contact_force(name, phi)
+            return np.asarray(force / (force - sprung.contact_force(name, phi)))
+
+        return key, max(self.extreme(partial(lacking, name), True).value for name in self.own_rollers)
 
     @property
     def closing_remedy(self) -> str:

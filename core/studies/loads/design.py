@@ -937,7 +937,7 @@ def _closed_rollers(design: LoadsDesign) -> Iterator[Remedy]:
             yield from (((key, at_least(old * more, step)),) for more in (1.1, 1.25, 1.5, 2.0, 3.0, 5.0))
     if design.lacking_spring is not None:
         key, least = design.lacking_spring
-        yield from (((key, at_least(least * more)),) for more in (1.1, 1.25, 1.5, 2.0))
+        yield from (((key, at_least(least * more)),) for more in (1.1, 1.25, 1.5, 2.0, 3.0, 5.0))
     old = number_at(design.spec, "unloader.reserve")
     if old is not None:
         yield from ((("unloader.reserve", at_least(old + more, 0.01)),) for more in (0.1, 0.25, 0.5, 1.0, 2.0))

@@ -171,3 +171,18 @@ def test_a_roller_of_the_gripper_is_without_force_at_the_speed_of_lift_off(secti
     there = factory.design("loaded_gripper", command="loads", loads=given, speed=speed)
     assert min(there.contact_force_min) == pytest.approx(0.0, abs=4e-6)
     assert there.lift_off_speed == pytest.approx(speed, rel=1e-9)
+
+
+@pytest.mark.parametrize("load", [{}, {"gravity": [0.0, -9.81]}, {"forces": [{"on": "output", "torque": -150.0}]}])
+def test_the_spring_that_a_gripper_lacks_leaves_a_roller_without_force(load: dict[str, Any]) -> None:
+    """With that torque, an empty section before, the least force of both rollers is 0; 1e-10 of some kN."""
+    given = {"loads": {"roller": {"width": 30}, **load}}
+    bare = factory.changed(factory.worked("loaded_gripper"), **given) | {"spring": None}
+    made = factory.design(bare, command="loads")
+    assert made.lacking_spring is not None
+    key, torque = made.lacking_spring
+    assert key == "spring.torque"
+    sprung = factory.design(bare | {"spring": {"torque": torque}}, command="loads")
+    assert min(sprung.contact_force_min) == pytest.approx(0.0, abs=1e-6)
+    (lost, *_) = (check for check in made.findings("loads", "contact-loss") if check.status == "fail")
+    assert lost.remedy
