@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -167,15 +167,27 @@ def terms_within(text: str, most: int = 4) -> list[str]:
         (['dwell'], ['停歇角'])
     """
     parts = re.findall(r"[\u4e00-\u9fff]|[^\s_\u4e00-\u9fff-]+", text)
-    left, found = set(range(len(parts))), []
-    for length in range(len(parts), 0, -1):
-        for start in range(len(parts) - length + 1):
-            here = range(start, start + length)
-            name = re.sub(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])", "", " ".join(parts[k] for k in here))
-            if len(name) > 1 and left.issuperset(here) and named_terms(name):
-                left -= {*here}
-                found.append(name)
-    return found[:most]
+    longest = 1 + max(map(len, _by_name()))  # a plural is longer by one
+    named = [here for start in range(len(parts)) for here in _phrases(parts, start, longest) if named_terms(here[1])]
+    taken: set[int] = set()
+    found: dict[str, None] = {}
+    for places, name in sorted(named, key=lambda here: -len(here[0])):
+        if taken.isdisjoint(places):
+            taken |= {*places}
+            found[name] = None
+    return list(found)[:most]
+
+
+def _phrases(parts: Sequence[str], start: int, longest: int) -> Iterator[tuple[range, str]]:
+    """The phrases of at most so many letters that begin at a word; a lone letter is none."""
+    letters = 0
+    for end in range(start + 1, len(parts) + 1):
+        letters += len(parts[end - 1])
+        if letters > longest:
+            return
+        if letters > 1:
+            words = " ".join(parts[start:end])
+            yield range(start, end), re.sub(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])", "", words)
 
 
 def translated(word: str, kind: str) -> tuple[str, tuple[str, ...]] | None:

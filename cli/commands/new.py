@@ -72,9 +72,10 @@ def template(kind: Kind, name: str = "") -> str:
         design = _explained(kind, worked, name)
     asked = index().first_commands[kind.name]
     head = (
-        f"# yaml-language-server: $schema={kind.name}.schema.json\n# (for editors that check as you type; make it by: "
-        f"gearlink schema {kind.name} > {kind.name}.schema.json)\n# Run it with: gearlink {asked} FILE\n# A number is "
-        "in the unit named after it; another unit may be written with the number\n"
+        f"# yaml-language-server: $schema={kind.name}.schema.json\n"
+        f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
+        f"# Run it with: gearlink {asked} FILE\n"
+        "# A number is in the unit named after it; another unit may be written with the number\n"
     )
     warned = "".join(f"{line}\n" for line in worked.splitlines() if design != worked and _WARNED.match(line))
     return f"{head}{warned}\n" + design.rstrip("\n") + "\n" + _left_out(kind, design)

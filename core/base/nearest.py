@@ -26,24 +26,34 @@ def near_names(word: str, names: Iterable[str], most: int = 3) -> list[str]:
         ([], [])
     """
     asked = word.lower()
-    ranked = sorted(
-        (rank, len(name), name) for name in dict.fromkeys(names) if (rank := _off(asked, name.lower())) >= 0
-    )
+    spelled, given = _BETWEEN.sub(" ", asked), _words(asked)  # a hyphen for a blank is no slip
+    off = {name: _off(asked, spelled, given, name.lower()) for name in names}
+    ranked = sorted((rank, len(name), name) for name, rank in off.items() if rank >= 0)
     return [name for _, _, name in ranked[:most]]
 
 
-def _off(asked: str, name: str) -> int:
+def _off(asked: str, spelled: str, given: Sequence[str], name: str) -> int:
     """By how many slips a name is off, 0 for one that has the words that are asked for; -1 where it is not near."""
     most = max(1, len(asked) // _LETTERS_FOR_A_SLIP)
-    whole = slips(_BETWEEN.sub(" ", asked), _BETWEEN.sub(" ", name), most)  # a hyphen for a blank is no slip
+    whole = slips(spelled, _BETWEEN.sub(" ", name), most)
     if whole >= 0:
         return whole
-    words, given = _words(name), _words(asked)
-    each = [_off_word(part, words) for part in given]
-    if each and min(each) >= 0:
-        return sum(each)
+    words = _words(name)
+    if (together := _off_words(given, words)) >= 0:
+        return together
     off = [found for part in words if len(part) >= _LETTERS_FOR_A_SLIP and (found := slips(asked, part, most)) >= 0]
     return min(off, default=-1)
+
+
+def _off_words(parts: Sequence[str], words: Sequence[str]) -> int:
+    """By how many slips all of some words are off others; -1 without words, and from the first one that is not near."""
+    total = 0 if parts else -1
+    for part in parts:
+        off = _off_word(part, words)
+        if off < 0:
+            return -1
+        total += off
+    return total
 
 
 def _off_word(part: str, words: Sequence[str]) -> int:

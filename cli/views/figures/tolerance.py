@@ -60,7 +60,7 @@ def _course(axes: Axes, course: Course) -> None:
     panels.curves(
         axes,
         f"{course.over.replace('_', ' ')} [{over}]",
-        f"deviation from nominal [{unit}]" if unit != "1" else "off nominal",
+        "deviation from nominal" + ("" if unit == "1" else f" [{unit}]"),
     )
     far = bool((low == low).any())
     if far:

@@ -14,6 +14,7 @@ import numpy as np
 from gearlink.core.base.design import geometry
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.mechanism.dynamics import reduced
 from gearlink.core.mechanism.links import Mechanism
@@ -88,7 +89,9 @@ class MutilatedGearLoads(LoadsDesign):
         """
         wheel = mass_of(of_body(self.section.links, "wheel"))
         if wheel.mass and wheel.center:
-            message = "the wheel is taken as balanced, so its centre of mass lies on its axis"
+            message = (
+                f"centre of mass of the wheel: {short(abs(wheel.center))} mm off its axis (limit 0: it is balanced)"
+            )
             raise NoSolution(
                 message, key="loads.links.wheel.center", fix="omit it, and add mass times center^2 to inertia"
             )

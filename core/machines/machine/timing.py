@@ -239,12 +239,12 @@ class Timing:
         return found[wanted.number - 1]
 
     def _way_to(self, wanted: Named, count: int) -> str:
-        """What helps to a run that the member does not have, of which it has so many others of this name."""
+        """The fix for a run that the member does not have; it has so many of this name."""
         if count:
             return f"name one from {wanted.what}[1] to {wanted.what}[{count}]"
         member = wanted.of.partition(".")[0]
         if wanted.what == "dwell" and "dwell_tolerance" in type(self.members[member].design.spec).model_fields:
-            return f"give members.{member}.design.dwell_tolerance: a dwell within a tolerance is a run"
+            return f"give members.{member}.design.dwell_tolerance: then a dwell within this tolerance is found"
         return f"name {' or '.join(self._named_runs(wanted.of))}"
 
     def _named_runs(self, of: str) -> list[str]:

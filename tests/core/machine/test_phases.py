@@ -242,7 +242,7 @@ def test_a_gap_beyond_every_dial_is_said_to_fail() -> None:
 @pytest.mark.parametrize(
     ("run", "fix"),
     [
-        ("drive.dwell", "give members.drive.design.dwell_tolerance: a dwell within a tolerance is a run"),
+        ("drive.dwell", "give members.drive.design.dwell_tolerance: then a dwell within this tolerance is found"),
         ("drive.rise[3]", "name one from rise[1] to rise[1]"),
         ("push.dwell", "name rise or return"),
     ],
