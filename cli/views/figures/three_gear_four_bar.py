@@ -238,7 +238,7 @@ _LINKS = {
 _STEADY = {"speed_ratio_max": "maximum speed ratio", "speed_ratio_min": "minimum speed ratio"}
 _BACK_STEP = {
     "back_step_angle": "back-step of the output",
-    "back_step_crank_angle": "crank angle of the back-step, φ₁₂",
+    "back_step_crank_angle": "back-step crank angle, φ₁₂",
     "dwell_angle": "dwell, φ₁₃",
 }
 
