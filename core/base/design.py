@@ -579,15 +579,17 @@ def _several(names: Sequence[str]) -> Sequence[str]:
 
 
 def _bounded(value: Any) -> Any:
-    """A value, None for an infinite one: a straight curve has no radius, and JSON no number for it.
+    """A value, None for an infinite one: a straight curve has no radius, and JSON no number for it. A zero has no sign.
 
     Example
-        >>> _bounded(math.inf), _bounded([2.5, math.inf]), _bounded("inf")
-        (None, [2.5, None], 'inf')
+        >>> _bounded(math.inf), _bounded([2.5, -0.0]), _bounded("inf")
+        (None, [2.5, 0.0], 'inf')
     """
     if isinstance(value, (list, tuple)):
         return [_bounded(each) for each in value]
-    return None if isinstance(value, float) and math.isinf(value) else value
+    if not isinstance(value, float):
+        return value
+    return None if math.isinf(value) else value + 0.0
 
 
 def _heads(key: str) -> Iterator[str]:

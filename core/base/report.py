@@ -411,13 +411,20 @@ def _read_only(column: Column) -> Column:
 
 def _plain(column: Column) -> Sequence[float | str | None]:
     """A column's numbers as Python's own, None where they do not exist."""
-    items: Sequence[Any] = column.tolist() if hasattr(column, "tolist") else column
+    items = _listed(column)
     try:
         if all(map(math.isfinite, items)):
             return items
     except (TypeError, ValueError, OverflowError):  # words, nothing at a place, integers beyond all floats
         pass
     return [None if isinstance(item, float) and not math.isfinite(item) else item for item in items]
+
+
+def _listed(column: Any) -> Sequence[Any]:
+    """A column, an array as a list in which a zero has no sign."""
+    if not hasattr(column, "tolist"):
+        return column  # type: ignore[no-any-return]
+    return (column + 0.0 if column.dtype.kind == "f" else column).tolist()  # type: ignore[no-any-return]
 
 
 def remedy_words(remedy: Remedy) -> str:

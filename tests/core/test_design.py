@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.base.design import Design, Outline, UnknownName, placed
+from gearlink.core.base.design import Design, Outline, UnknownName, _bounded, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Report, Table, safely_above, safely_below
@@ -312,6 +312,13 @@ def test_rows_run_on_from_block_to_block():
     assert [i for i, row in enumerate(rows) if row[1] is None] == [5000]
     assert rows == [tuple(row) for row in table.rows()]
     assert list(table.thinned(1000).each_row()) == rows[::1000]
+
+
+def test_a_zero_has_no_sign():
+    """Whether a product that is zero is -0.0 depends on how a processor rounds; files of results must not."""
+    table = Table("t", ("a", "b"), ("1", "1"), (np.array([-0.0, -1.0, np.nan]), np.array([-0.0, -np.inf, 0.0])))
+    assert [str(value) for row in table.rows() for value in row] == ["0.0", "0.0", "-1.0", "None", "None", "0.0"]
+    assert [str(value) for value in _bounded([-0.0, -2.0, math.inf])] == ["0.0", "-2.0", "None"]
 
 
 def test_columns_of_unequal_length_are_a_fault():
