@@ -35,6 +35,7 @@ from gearlink.core.parts.gears.rack import RackMesh
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.dwell_gears.locking import Lock
     from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
     from gearlink.core.machines.wide_swing.strokes import AnyCam
     from gearlink.core.parts.cams.flat_cam import FlatCam
@@ -362,7 +363,7 @@ def hypocycloid(design: Any) -> Makers:
 
 
 def mutilated(design: Any) -> Makers:
-    """The wheel as it is drawn, without its locking arcs, which are no result of the design; the driven gear."""
+    """The wheel and the driven gear; the locking disc and plate where the file has them."""
     hands = train_hands(design)
     titles = ("", "gear 2, driven")
     data_of = partial(_data_of, design)
@@ -375,7 +376,10 @@ def mutilated(design: Any) -> Makers:
             found = wheel_of(design, widths[0] if widths else None, hands[0])
         return replace(found, lines=partial(_lines, data_of, 0, _told(design.mesh, hands)))
 
-    return {"wheel": wheel, "gear2": made["gear2"]}
+    found: Makers = {"wheel": wheel, "gear2": made["gear2"]}
+    if design.spec.locking is not None:
+        found |= {"disc": lambda: locking_disc(design), "plate": lambda: locking_plate(design)}
+    return found
 
 
 def _data_of(design: Any, label: str = "") -> GearData:
@@ -684,13 +688,81 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
             f"{amount(groups, 'group')} of {amount(count, 'tooth', 'teeth')}, {design.full_teeth} teeth without gaps; "
             f"module {mesh.module:g} mm",
             f"first and last tooth of a group cut to radius {cut:.6g} mm, so that they clear the gear at rest",
-            "the locking arcs that hold the driven gear, and an entry tooth, are omitted",
+            "the motion begins with a step of the speed; an entry tooth is omitted",
+            *([] if design.spec.locking is not None else ["nothing locks the driven gear: the file has no locking"]),
             "no backlash: reduce the tooth thickness by the allowance of the drawing",
             "frame: wheel axis at the origin, middle of a gap on the x axis",
         ),
         width=width,
         twist=SENSES[hand] * math.tan(mesh.helix_angle) / mesh.reference_radius[0],
     )
+
+
+def locking_disc(design: MutilatedGearDwell) -> Part:
+    """The locking disc of a mutilated wheel, the middle of an arc on the x axis.
+
+    Raises
+        NoSolution - for radii with which no disc and plate exist
+    """
+    lock, groups, shafts = _lock_of(design), design.spec.gears.groups, design.spec.shafts
+    end, middle = 0.5 * lock.arc, math.pi / groups
+    edge = cmath.rect(1.0, end)
+    return Part(
+        name="disc",
+        title="locking disc next to the wheel",
+        stretches=(
+            _stretch("locking arc", lambda at: lock.radius * np.exp(1j * at), 0.0, end),
+            _stretch("edge", straight(lock.radius * edge, lock.cut * edge), 0.0, 1.0),
+            _stretch("cut-out", lambda at: lock.cut * np.exp(1j * at), end, middle),
+        ),
+        closed=True,
+        teeth=groups,
+        circles=() if shafts is None or shafts.W_radius is None else (Circle("SHAFT", shafts.W_radius),),
+        notes=(
+            f"arcs of {math.degrees(lock.arc):.9g} deg, cut-out to radius {lock.cut:.9g} mm with radial edges",
+            "to be fixed to the wheel next to its teeth, the middle of an arc in the middle of a gap",
+            "frame: axis of the wheel at the origin, middle of an arc on the x axis",
+        ),
+        findings=_findings_of_lock(design),
+        lines=partial(sizes.disc_lines, design),
+        dimensions=sizes.disc(lock, groups),
+    )
+
+
+def locking_plate(design: MutilatedGearDwell) -> Part:
+    """The plate of a driven gear with its concave arcs, the middle of one on the x axis."""
+    lock, shafts = _lock_of(design), design.spec.shafts
+    reach = math.acos((lock.distance**2 + lock.hollow**2 - lock.plate**2) / (2.0 * lock.distance * lock.hollow))
+    return Part(
+        name="plate",
+        title="locking plate next to the driven gear",
+        stretches=(
+            _stretch("locking arc", lambda at: lock.distance - lock.hollow * np.exp(-1j * at), 0.0, reach),
+            _stretch("rim", lambda at: lock.plate * np.exp(1j * at), lock.half_arc, math.pi / lock.stops),
+        ),
+        closed=True,
+        teeth=lock.stops,
+        circles=() if shafts is None or shafts.A_radius is None else (Circle("SHAFT", shafts.A_radius),),
+        notes=(
+            f"{amount(lock.stops, 'arc')} of radius {lock.hollow:.9g} mm about the wheel's axis in the dwell, "
+            f"{_wider(lock.clearance, 'the disc')}",
+            "to be fixed to the driven gear next to its teeth, the middle of an arc in the middle of a tooth",
+            "frame: axis of the driven gear at the origin, middle of an arc on the x axis",
+        ),
+        findings=_findings_of_lock(design),
+        lines=partial(sizes.plate_lines, design),
+        dimensions=sizes.plate(lock),
+    )
+
+
+def _lock_of(design: MutilatedGearDwell) -> Lock:
+    lock = design.lock
+    assert lock is not None, "a design without the section has no maker of these parts"
+    return lock
+
+
+def _findings_of_lock(design: MutilatedGearDwell) -> tuple[str, ...]:
+    return tuple(check.message for check in design.check("locking") if check.status == "fail")
 
 
 def _half(profile: ToothProfile) -> Iterator[_Piece]:

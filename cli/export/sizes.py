@@ -17,6 +17,8 @@ from gearlink.cli.export.contour import Dimension
 if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.grooved import Groove
     from gearlink.core.machines.cycloidal.disc import Disc
+    from gearlink.core.machines.dwell_gears.locking import Lock
+    from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
     from gearlink.core.machines.geneva.design import GenevaDrive, Outlines, Piece
 
 Lines = list[tuple[str, str, Any, str]]
@@ -97,6 +99,54 @@ def driver_lines(design: GenevaDrive, outlines: Outlines) -> Lines:
     return [*given, *_quantities(design, ("crank_radius", "locking_angle"))]
 
 
+def disc(lock: Lock, groups: int) -> tuple[Dimension, ...]:
+    """Radii of a locking disc's arc and of its cut-out."""
+    end, middle = 0.5 * lock.arc, math.pi / groups
+    return (
+        Dimension(f"R{size(lock.radius)}", 0j, cmath.rect(lock.radius, 0.35 * end)),
+        Dimension(f"R{size(lock.cut)}", 0j, cmath.rect(lock.cut, middle + 0.5 * (middle - end))),
+    )
+
+
+def disc_lines(design: MutilatedGearDwell) -> Lines:
+    """The table of a locking disc."""
+    lock = design.lock
+    assert lock is not None, "as for the disc"
+    given: Lines = [
+        ("arcs, equally spaced", "", design.spec.gears.groups, ""),
+        ("diameter of the disc", "2 R", 2.0 * lock.radius, "mm"),
+        ("radius of the cut-out", "", lock.cut, "mm"),
+        ("distance of the axes", "a", lock.distance, "mm"),
+    ]
+    return [*given, *_quantities(design, ("locking_arc",))]
+
+
+def plate(lock: Lock) -> tuple[Dimension, ...]:
+    """Radius of a locking plate's arc, and the distance of its tips."""
+    tip, center = cmath.rect(lock.plate, lock.half_arc), complex(lock.distance)
+    place = center + cmath.rect(lock.hollow, math.pi + 0.5 * cmath.phase(center - tip))
+    return (
+        Dimension(f"{lock.stops} × R{size(lock.hollow)}", center, place, lock.stops),
+        Dimension(size(2.0 * tip.imag), tip.conjugate(), tip, row=1),
+    )
+
+
+def plate_lines(design: MutilatedGearDwell) -> Lines:
+    """The table of a locking plate."""
+    lock = design.lock
+    assert lock is not None, "as for the plate"
+    given: Lines = [
+        ("arcs, equally spaced", "", lock.stops, ""),
+        ("diameter of the plate", "2 p", 2.0 * lock.plate, "mm"),
+        ("radius of an arc", "R + c", lock.hollow, "mm"),
+        ("distance of the axes, centre of an arc", "a", lock.distance, "mm"),
+        ("angle between the tips of an arc", "", math.degrees(2.0 * lock.half_arc), "deg"),
+        ("axis to the middle of an arc", "", lock.bottom, "mm"),
+    ]
+    play = ("free rotation in the dwell", "", math.degrees(lock.play), "deg")
+    return [*given, play, *_quantities(design, ("locking_arm",))]
+
+
 def lobes(disc: Disc) -> tuple[Dimension, ...]:
     """Radii of valleys and tips of a cycloidal disc."""
     places, _ = disc.profile(np.array([0.0, math.pi / disc.lobes]))
@@ -122,7 +172,7 @@ def centre_line(groove: Groove) -> tuple[Dimension, ...]:
     return tuple(Dimension(f"R{abs(place):.3f}", 0j, place) for place in places)
 
 
-def _quantities(design: GenevaDrive, names: Iterable[str]) -> Lines:
+def _quantities(design: GenevaDrive | MutilatedGearDwell, names: Iterable[str]) -> Lines:
     """Results of the design by their names, those that it has."""
     found = [each for name in names if (each := design.quantity(name)) is not None]
     return [(each.words, each.symbol, each.value, each.unit) for each in found]

@@ -30,7 +30,7 @@ GENEVA = {
     ),
     "motion_angle": Term("2 f_0", "deg", "input angle of a step", "own derivation: 180 deg - s 360 deg/n"),
     "wheel_backlash": Term("", "deg", "maximum free rotation of the wheel with the pin in its slot"),
-    "locking_play": Term("", "deg", "free rotation of the wheel in the middle of the dwell, locked by the disc"),
+    "locking_play": Term("", "deg", "free rotation of the driven wheel or gear in its dwell, locked by the disc"),
     "locking_angle": Term("", "deg", "input angle between two steps, during which the wheel dwells"),
     "entry_acceleration_ratio": Term("tan(pi/n)", "1", "jump of the acceleration ratio at entry and exit"),
     "steps_per_minute": Term("", "1/min", "steps of the wheel per minute: input speed times pins", "thesis 4.2.1"),
@@ -844,6 +844,13 @@ _MUTILATED = {
     "driven_turn": Term("n/Z_F", "1", "revolutions of the driven gear per group of teeth", "own derivation"),
     "driven_speed_ratio": Term("Z_M/(Z_F i_r)", "1", "driven speed over input speed in motion", "own derivation"),
     "cycles_to_repeat": Term("", "1", "cycles until the driven gear is in the same position again"),
+    "end_tooth_radius": Term(
+        "", "mm", "radius of the first and the last tooth of a group, cut to pass the gear at rest"
+    ),
+    "locking_radius": Term("R", "mm", "radius of the locking disc's arcs, given or the pitch radius of the wheel"),
+    "locking_arc": Term("", "deg", "angle of an arc of the locking disc about the axis of the wheel", "own derivation"),
+    "held_turns": Term("", "1", "input revolutions during which the locking disc holds the gear against both senses"),
+    "locking_arm": Term("", "mm", "distance of the locking force from the axis of the driven gear", "own derivation"),
     "start_crank_angle": Term("phi_0", "deg", "crank angle of the dwell"),
     "rocker_swing": Term("", "deg", "angle between the limit positions of the rocker"),
     "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the start with the largest impact"),

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -76,10 +78,37 @@ def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: com
     line = cmath.phase(toward)
     place = line + math.pi - math.pi / design.mesh.teeth[1] + _driven(design, turns)
     axis, loop_turns = center + toward * design.mesh.center_distance, design.mutilated.cycles_to_repeat
+    turn = line - TURN * turns / design.reduction
     return [
-        _wheel(design, center, line - TURN * turns / design.reduction),
+        _wheel(design, center, turn),
         *gear(design.mesh, 1, axis, place, loop_turns * design.driven_turn, style.ORANGE, "2", "driven gear"),
+        *_lock(design, (center, turn), (axis, line + math.pi + _driven(design, turns))),
     ]
+
+
+def _lock(design: MutilatedGearDwell, wheel: tuple[Points, Reals], driven: tuple[Points, Reals]) -> Iterator[Body]:
+    """The outlines of disc and plate at the places and turns of wheel and gear; a plate's arc lies on its x axis."""
+    lock, groups = design.lock, design.spec.gears.groups
+    if lock is None:
+        return
+    pitch, start = TURN / groups, 0.5 * (TURN / groups + design.group_teeth * TURN / design.full_teeth)
+    arcs, cuts = np.linspace(-0.5, 0.5, 181) * lock.arc, np.linspace(0.5 * lock.arc, pitch - 0.5 * lock.arc, 61)
+    disc = np.concatenate([lock.radius * np.exp(1j * arcs), lock.cut * np.exp(1j * cuts)]) * cmath.rect(1.0, start)
+    tip = math.asin(lock.plate * math.sin(lock.half_arc) / lock.hollow)
+    rim = np.linspace(lock.half_arc, TURN / lock.stops - lock.half_arc, 121)
+    arc = lock.distance - lock.hollow * np.exp(1j * np.linspace(tip, -tip, 61))
+    plate = np.concatenate([arc, lock.plate * np.exp(1j * rim)])
+    for outline, count, (place, turn), name in (
+        (disc, groups, wheel, _LOCK),
+        (plate, lock.stops, driven, ""),
+    ):
+        whole = np.concatenate([outline * cmath.rect(1.0, TURN * k / count) for k in range(count)])
+        yield Body(
+            outline=np.append(whole, whole[0]), place=place, turn=turn, repeats=count, color=style.GREEN, name=name
+        )
+
+
+_LOCK = "locking disc and plate"
 
 
 def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
@@ -97,8 +126,7 @@ def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, now: Reals) -
 def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     """The wheel's outline, its first group counter-clockwise from the x axis.
 
-    The first and the last tooth of a group are cut down so far that they pass the resting gear; the model says no
-    more of them, nor of the locking arcs.
+    The first and the last tooth of a group are cut down so far that they pass the resting gear.
     """
     gears, mesh = design.spec.gears, design.mesh
     root = mesh.root_radius[0]
@@ -159,7 +187,8 @@ def mechanism(axes: Axes, design: MutilatedGearDwell) -> None:
     cycles, share = design.mutilated.cycles_to_repeat, 0.5 * design.motion_turns / design.cycle_turns
     scene = scene_axes.turned(axes, design, build, 0.0, share / cycles)
     if design.linkage is not None:
-        scene_axes.lightly(axes, scene, 1, name="four-bar in the middle of the motion")
+        links = replace(scene, parts=tuple(part for part in scene.parts if not isinstance(part, Body)))
+        scene_axes.lightly(axes, links, 1, name="four-bar in the middle of the motion")
 
 
 def _both(axes: Axes, design: MutilatedGearDwell, title: str, ylabel: str, column: str, line: str) -> None:

@@ -1,8 +1,9 @@
 """A long dwell by a mutilated gear as a design, with the four-bar that its driven gear turns.
 
 Between reduction and driven gear the wheel carries g groups of n teeth on a pitch circle that has room for Z_M teeth.
-While a group passes, the driven gear (Z_F teeth) turns as in mesh with a full wheel; then it stands. The model knows
-pitch circles only: tip cuts of the first and the last tooth and the locking arcs are not in it.
+While a group passes, the driven gear (Z_F teeth) turns as in mesh with a full wheel; then it stands, held by a locking
+disc and plate where the file has them. The motion is that of pitch circles from end to end: the first and the last
+tooth of a group are cut down to pass the resting gear, and what their cut tips change of it is not in the model.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, down, either, up
-from gearlink.core.base.report import Check, Shown, Table
+from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short
@@ -36,13 +37,14 @@ from gearlink.core.parts.gears.drawing_names import BESIDE_ROOT
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
-from gearlink.core.parts.linkages.codes import TARGET
+from gearlink.core.parts.linkages.codes import LOCKING, TARGET
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot, rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.dwell_gears.locking import Lock
     from gearlink.core.machines.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
     from gearlink.core.numerics.arrays import Mask, Reals
     from gearlink.core.parts.gears.rating.true_root import TrueRoot
@@ -268,6 +270,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
             "group_teeth",
             "driven_teeth",
             "center_distance",
+            "locking_play",
             "rocker_start_speed",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "rocker_swing",
@@ -291,6 +294,12 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
                 "cycles_to_repeat",
                 "center_distance",
                 "contact_ratio",
+                "end_tooth_radius",
+                "locking_radius",
+                "locking_arc",
+                "held_turns",
+                "locking_play",
+                "locking_arm",
                 "start_crank_angle",
                 "rocker_swing",
                 "rocker_start_speed",
@@ -302,7 +311,16 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
                 "driven_speed",
                 "rocker_speed_at_start",
             ),
-            ("target", "start-shock", "gap", "shaft-clearance", "shaft-seat", "transmission-angle", *GEAR_CHECKS),
+            (
+                "target",
+                "start-shock",
+                "gap",
+                "locking",
+                "shaft-clearance",
+                "shaft-seat",
+                "transmission-angle",
+                *GEAR_CHECKS,
+            ),
             ("motion",),
         ),
         "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
@@ -310,6 +328,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
 
     ways = {
         "gap": (down("gears.group_teeth", step=1), up("gears.full_teeth", step=1)),
+        "locking": (down("locking.radius"), down("locking.plate_radius")),
         "shaft-clearance": SHAFT_WAYS,
         "transmission-angle": _LINKS,
         **train_ways(2, *_TEETH),
@@ -336,6 +355,38 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
             if getattr(self.asked.gears, key) is None:
                 yield Found(f"gears.{key}", getattr(self.spec.gears, key), _FOUND)
         yield Found("target", None)
+
+    # What holds the driven gear
+
+    @property
+    def end_tooth_radius(self) -> float:
+        """Radius to which the first and the last tooth of a group are cut down, so that they pass the resting gear."""
+        from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
+
+        return end_tooth_radius(self.mesh)
+
+    @cached_property
+    def lock(self) -> Lock | None:
+        """Disc and plate, where the file has them."""
+        section, wheel = self.spec.locking, self.mutilated
+        if section is None:
+            return None
+        from gearlink.core.machines.dwell_gears.locking import Lock
+
+        radius = self.mesh.working_radius[0] if section.radius is None else section.radius
+        gap = _TURN * wheel.dwell_share / wheel.groups
+        ratio = self.full_teeth / self.driven_teeth
+        return Lock(self.mesh.center_distance, ratio, gap, radius, section.plate_radius, section.clearance, self.stops)
+
+    locking_radius: float | None = placed("lock.radius")
+    locking_arc: float | None = placed("lock.arc")
+    locking_play: float | None = placed("lock.play")
+    locking_arm: float | None = placed("lock.arm")
+
+    @property
+    def held_turns(self) -> float | None:
+        """Input turns in which both tips of the plate's arc lie on the disc."""
+        return None if self.lock is None else self.reduction * self.lock.held / _TURN
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The required times met by other driven gears and by more groups."""
@@ -551,6 +602,21 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
         )
         remedy = "reduce gears.group_teeth, so that the locking arc fits"
         return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
+
+    def check_locking(self) -> Iterator[Check]:
+        """GL344: metal between the plate's arc and the shaft of the gear, and between the cut-out and the wheel's."""
+        lock, shafts = self.lock, self.spec.shafts
+        if lock is None:
+            return
+        radii = (0.0, 0.0) if shafts is None else (shafts.A_radius or 0.0, shafts.W_radius or 0.0)
+        walls = (
+            (lock.bottom - radii[0], "metal between the plate's arc and the shaft A", "a smaller locking.radius"),
+            (lock.cut - radii[1], "metal between the disc's cut-out and the shaft W", "a smaller locking.plate_radius"),
+        )
+        for wall, what, remedy in walls:
+            overlap = what.replace("metal between", "overlap of").replace(" and the", " with the")
+            status: Status = "pass" if wall > 0.0 else "fail"
+            yield LOCKING.check(status, what, wall, 0.0, "mm", overlap=overlap, fix=f"use {remedy}")
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303, where there is a four-bar."""

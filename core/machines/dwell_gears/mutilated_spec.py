@@ -51,6 +51,16 @@ class MutilatedShafts(PivotShafts):
     W_radius: Length | None = Field(None, description="radius of the shaft of the mutilated wheel, W")
 
 
+class Locking(Spec):
+    """A disc next to the wheel and a plate with concave arcs next to the driven gear, which hold it in its dwell."""
+
+    radius: Length | None = Field(None, description="radius of the disc's arcs; default: pitch radius of the wheel")
+    plate_radius: Length = Field(description="outer radius of the plate")
+    clearance: Annotated[float, unit("mm", ge=0, le=10)] = Field(
+        0.0, description="radius of the plate's arcs less that of the disc"
+    )
+
+
 class WantedTimes(Spec):
     """The required motion and dwell, in revolutions of the input or, at input_speed, in time; teeth are chosen."""
 
@@ -90,6 +100,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     start_angle: Angle | None = Field(
         None, description="crank angle at which the crank is at rest; default: crank and coupler stretched"
     )
+    locking: Locking | None = Field(None, description="disc and plate that hold the driven gear in its dwell")
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: MutilatedShafts | None = None
     loads: Annotated[Any, Deferred("machines.dwell_gears.loads_spec:MutilatedLoads")] | None = Field(

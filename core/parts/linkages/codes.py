@@ -208,17 +208,19 @@ DWELL_CONDITION = Rule(
 
 LOCKING = Rule(
     "GL344",
-    "locking disc and slots leave too little metal",
+    "locking disc, arcs and slots leave too little metal",
     "The lip of the wheel between the locking arc and the end of a slot has no thickness, two slots run into each "
     "other at their bottoms, or the locking disc is so small that it does not reach the wheel or that the lips hit its "
-    "edge on their way past.",
+    "edge on their way past. Of a mutilated gear: the plate's arc or the disc's cut-out reaches a shaft.",
     "The lip takes the shock of the entering pin. In the dwell no pin is in a slot: the arc alone holds the wheel, "
     "and where the disc does not reach it the wheel turns freely, so that the pin misses the slot at its next entry.",
     "Use a smaller locking disc (locking_radius) or a thinner pin where metal is missing, a larger disc where it does "
     "not hold the wheel; a larger center_distance helps with both. If a brake or a detent holds the wheel, omit "
-    "locking_radius: then the disc is not checked.",
+    "locking_radius: then the disc is not checked. Of a mutilated gear use a smaller locking.radius for the shaft of "
+    "the gear, a smaller locking.plate_radius for that of the wheel.",
     "r - b/2 - locking_radius - locking_clearance > 0, b = 2 r_pin + slot_clearance; locking_radius > a - tip_radius; "
-    "between the bottoms of two slots (a - r) sin(pi/n) > b/2 (external)",
+    "between the bottoms of two slots (a - r) sin(pi/n) > b/2 (external); mutilated gear: a - R - c and a - p - c "
+    "above the radii of the shafts",
     "thesis 4.2.1; own derivation",
     ("locking",),
     ("locking_radius", "pin_radius", "center_distance"),
