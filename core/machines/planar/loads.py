@@ -16,6 +16,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.design import PlanarMechanism
 from gearlink.core.machines.planar.outputs import inputs
 from gearlink.core.mechanism.joints import Contact, Guide
+from gearlink.core.mechanism.rates import dot
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.design import LoadsDesign, Wanted, loads_outline
 
@@ -33,6 +34,10 @@ if TYPE_CHECKING:
     from gearlink.core.studies.loads.sources import Sources
 
 _CONTACT = ("contact_force_max", "contact_force_min")
+_WITHIN = np.array([0.02, 0.2, 0.4, 0.6, 0.8, 0.98])
+"""Shares of a stretch between two joints of cams at which the output is asked whether it moves."""
+_STANDS = 1e-9
+"""Share of its maximum speed below which the output stands: of a closed loop rounding leaves some 1e-14."""
 
 
 class PlanarLoads(LoadsDesign):
@@ -48,6 +53,7 @@ class PlanarLoads(LoadsDesign):
     outlines = loads_outline((), ())
     quantity_names = NamesOfFile()
     joints_of_period = True
+    stands = True
 
     def __init__(self, spec: Any) -> None:
         super().__init__(spec)
@@ -150,6 +156,22 @@ class PlanarLoads(LoadsDesign):
         """Input turns after which everything repeats; over a range those that it takes."""
         course = self.design.course
         return self.design.period_turns or math.ceil((course.end - course.start) / (2.0 * math.pi))
+
+    @cached_property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The dwells that cams give the output: stretches between joints of their laws in which it stands [rad]."""
+        if not self.moving.input.joints or self.spec.range is not None:
+            return []
+        joints = sorted({0.0, *self.moving.input.joints})  # the period may begin at one
+        starts = np.array(joints)
+        widths = np.diff(starts, append=self.machine.period)
+        mechanism = self.moving.at((starts[:, None] + widths[:, None] * _WITHIN).ravel(), 1)
+        link = mechanism.links[self.output]
+        slides = self.output in self.sliding
+        speed = dot(mechanism.travel[self.output], link.origin.first) if slides else link.turn.first
+        size = np.abs(speed).reshape(len(joints), -1).max(axis=1)
+        still = size <= _STANDS * size.max()
+        return [(start, width) for start, width, stands in zip(joints, widths.tolist(), still, strict=True) if stands]
 
     # One pass over a range
 

@@ -179,3 +179,42 @@ def test_what_is_led_round_takes_no_torque_in_the_mean(designs: Path) -> None:
     """Inertia does no work over a revolution: parts of the mean end where the law of the cam changes."""
     opened: Any = opened_from(designs / "planar_cam.yaml", command="loads")
     assert abs(opened.raw("input_torque_mean")) < 1e-12 * opened.raw("input_torque_rms")
+
+
+@pytest.mark.parametrize("dwells", [(150.0, 240.0), (150.0, 360.0), (90.0, 240.0)])
+def test_dwells_of_cams_are_those_of_a_disc_cam(dwells: tuple[float, float]) -> None:
+    """The vibration of a lever on a cam, as either kind has it: two dwells, one of either, the last over the start.
+
+    Both integrate the same response between the same joints; positions of the planar loop are closed to some 1e-14
+    of the lever, which divided by the 0.02 deg of an amplitude leaves 1e-8.
+    """
+    rest, end = dwells
+    given: list[dict[str, Any]] = [{"to": 90, "lift": 20, "law": "modified-sine"}, {"to": rest}]
+    motion = [each for k, each in enumerate(given) if k == 0 or rest > 90] + [
+        {"to": end, "lift": 0, "law": "cycloidal"}
+    ]
+    motion += [{"to": 360}] if end < 360 else []
+    arm, distance, prime = 100.0, 165.0, 90.0
+    swung = math.degrees(math.acos((arm**2 + distance**2 - prime**2) / (2.0 * arm * distance)))
+    vibration = {"frequency": 60, "damping": 0.02, "allowed_residual": 0.05}
+    one = design(
+        kind="disc-cam", command="loads", speed=180, motion=motion, cam={"prime_radius": prime, "sense": 1},
+        follower={"type": "oscillating-roller", "roller_radius": 12, "arm": arm, "center_distance": distance, "side": 1,
+                  "inertia": 0.04},
+        loads={"vibration": vibration},
+    )  # fmt: skip
+    cam = {"cam": "shaft", "follower": "lever", "point": "R", "roller_radius": 12, "motion": motion}
+    other = design(
+        kind="planar-mechanism", command="loads", frame={"O": [0, 0], "A": [distance, 0]},
+        links={"shaft": {"O": [0, 0]}, "lever": ["A", "R", arm]}, cams={"cam": cam}, drive={"link": "shaft"},
+        start={"lever": 180.0 - swung}, outputs=["lever"],
+        loads={"speed": 180, "links": {"lever": {"inertia": 0.04}}, "vibration": vibration},
+    )  # fmt: skip
+    for name in ("rise_periods", "residual_amplitude", "dwell_twist", "twisted_ripple", "residual_speed_limit"):
+        assert other.quantity(name).value == pytest.approx(one.quantity(name).value, rel=1e-7), name
+    (found,) = other.check("residual-vibration")
+    assert found.value == pytest.approx(other.quantity("residual_amplitude").value, rel=1e-12)
+
+
+def test_a_linkage_without_cams_has_no_dwell() -> None:
+    assert loaded(next(iter(LOADS))).quiet_zones == []
