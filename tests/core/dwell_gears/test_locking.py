@@ -30,7 +30,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.dwell_gears.locking import Lock
 
 TURN = 2.0 * math.pi
-design = partial(factory.design, "mutilated_gear_locked")
+design = partial(factory.design, "mutilated_gear_two_stops")
 
 
 def lock_of(distance: float, ratio: float, radius: float, plate: float, clearance: float = 0.0, stops: int = 1) -> Lock:
@@ -190,7 +190,7 @@ def test_files_have_the_areas_of_closed_forms(name: str) -> None:
     assert line.closed
 
 
-@pytest.mark.parametrize("file", ["mutilated_gear_locked", "mutilated_gear_press"])
+@pytest.mark.parametrize("file", ["mutilated_gear_two_stops", "mutilated_gear_press"])
 def test_disc_and_plate_of_the_film_never_overlap(file: str) -> None:
     """Over the whole loop of the animation; chords of its outlines are off the arcs by 0.02 mm."""
     from matplotlib.path import Path
