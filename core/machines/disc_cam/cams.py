@@ -26,7 +26,7 @@ from gearlink.core.machines.disc_cam.spec import (
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
 from gearlink.core.parts.cams import profile
-from gearlink.core.parts.cams.contour import Contour, contour, contour_motion
+from gearlink.core.parts.cams.contour import Contour, Rocker, contour, contour_motion
 from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
 from gearlink.core.parts.cams.flat_cam import FlatCam, rocking_face, sliding_face
 from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
@@ -85,6 +85,12 @@ class FollowerCams:
         made = None if spec.arcs is None else self.contour
         if made is not None:
             reach = None if spec.is_flat else float(getattr(spec.follower, "roller_radius", 0.0))
+            if isinstance(spec.follower, OnRocker):
+                rocker = spec.follower
+                assert rocker.center_distance is not None, "a file with a profile has it"
+                return contour_motion(
+                    made, reach, Rocker(rocker.arm, rocker.center_distance, -self.sense * rocker.side)
+                )
             return contour_motion(made, reach, self.sense * float(getattr(spec.follower, "offset", 0.0)))
         assert spec.motion is not None, "a file without a profile has it"
         with at_key("motion"):

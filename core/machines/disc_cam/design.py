@@ -253,7 +253,7 @@ class DiscCamDesign(OfFollower, Design):
     @property
     def action_angle(self) -> float | None:
         """Cam angle from the start of the rise to the end of the return [rad]."""
-        return None if self.contour is None else 2.0 * self.contour.ascent
+        return None if self.contour is None else self.contour.whole
 
     @property
     def offset(self) -> float | None:
@@ -396,7 +396,7 @@ class DiscCamDesign(OfFollower, Design):
         """The arcs of a profile, with velocity and acceleration of the follower at both ends of each."""
         self.require_table("arcs")
         assert self.contour is not None
-        return arcs_table(self.contour, self.follower_motion, self.speed)
+        return arcs_table(self.contour, self.follower_motion, self.speed, oscillates=self.spec.oscillates)
 
     def table_main_cam(self, samples: int | None = None) -> Table:
         """The main cam; of a groove its inner wall."""

@@ -292,8 +292,11 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
             message = "the key 'motion' is missing\ngive motion, a list of segments such as {to: 120, lift: 20, law: "
             message += "cycloidal}, or a table; or profile, such as {type: tangent}"
             raise refused(message, "motion", "GL106")
-        if self.oscillates:
-            raise refused("profile applies only to a follower that slides\ngive motion", "profile")
+        if self.oscillates and self.is_flat:
+            raise refused("profile does not apply to a flat face that rocks\ngive motion", "profile")
+        if self.oscillates and getattr(self.follower, "center_distance", None) is None:
+            raise refused("with profile the position of the pivot is not sought\ngive follower.center_distance",
+                          "follower.center_distance")  # fmt: skip
         if self.initial_lift:
             raise refused("a profile begins at lift 0\nomit initial_lift", "initial_lift")
         return self

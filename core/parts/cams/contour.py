@@ -1,4 +1,4 @@
-"""Cams of arcs: base circle, flanks and nose, their sizes from some of them, and the motion of a sliding follower.
+"""Cams of arcs: base circle, flanks and nose, their sizes from some of them, and the motion of a follower.
 
 O is the cam axis, P and Q the centres of flank and nose, alpha the angle of ascent. Lengths in mm, angles in rad.
 The arcs stand in a frame in which the follower goes counter-clockwise about the cam.
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Table
+from gearlink.core.base.report import Table, safely_below
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.cams.follower_motion import DWELL, TURN, FollowerMotion, Piece, Shape
@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 _NARROW = 1e-9
 """Of a turn [rad]: a narrower stretch is none."""
+_OTHER_SIDE = 1e-7
+"""Difference from which on two angles of an arm [rad] are not the same: rounding leaves some 1e-9 near a jam."""
+_JAMS = 1e-9
+"""How near a cosine may come to 1 before an arm counts as in line with the normal: 90 deg less 0.003 deg."""
 Height = Callable[[Reals, int], list[Reals]]
 """Height of a follower along its travel and its derivatives by the cam angle, up to an order."""
 
@@ -38,7 +42,8 @@ class Contour:
         base, nose : float [mm] - r_1, r_2
         distance : float [mm] - d = OQ
         flank : float [mm] or None - R, negative where concave, inf where straight; None without flanks
-        ascent : float [rad] - alpha, from where the flank leaves the base circle to the nose
+        ascent : float [rad] - alpha, from where the flank leaves the base circle to the nose's axis
+        dwell : float [rad] - of the arc about the cam axis, of radius d + r_2, between the noses of both flanks
     """
 
     base: float
@@ -46,6 +51,12 @@ class Contour:
     distance: float
     flank: float | None
     ascent: float
+    dwell: float = 0.0
+
+    @property
+    def whole(self) -> float:
+        """From the beginning of the rise to the end of the return [rad]."""
+        return 2.0 * self.ascent + self.dwell
 
     @property
     def flank_center(self) -> complex:
@@ -77,15 +88,25 @@ def contour(given: TangentProfile | CircularArcProfile | EccentricProfile) -> Co
         return Contour(given.base_radius, given.radius, given.eccentricity, None, math.pi)
     sizes, base = given.given(), given.base_radius
     known = {name: math.radians(size) if name.endswith("angle") else size for name, size in sizes.items()}
+    dwell = math.radians(given.dwell_angle)
     if "action_angle" in known:
-        known["ascent"] = 0.5 * known["action_angle"]
+        known["ascent"] = 0.5 * (known["action_angle"] - dwell)
     try:
         found = _with_straight(base, known) if given.type == "tangent" else _with_arcs(base, known)
         _require(found)
+        if found.whole + dwell > TURN + _NARROW:
+            raise _too_long(found, dwell)
     except NoSolution as error:
         change = " or ".join(f"profile.{name}" for name in sizes)
         raise NoSolution(error.message, key=error.key or "profile", fix=error.fix or f"change {change}") from None
-    return found
+    return replace(found, dwell=dwell)
+
+
+def _too_long(found: Contour, dwell: float) -> NoSolution:
+    """Rise, dwell and return do not fit into a revolution."""
+    whole, most = math.degrees(found.whole + dwell), math.degrees(TURN - found.whole)
+    message = f"rise, dwell and return of the profile: {short(whole)} deg (limit <= 360 deg)"
+    return NoSolution(message, key="profile.dwell_angle", fix=f"reduce profile.dwell_angle to {safely_below(most)} deg")
 
 
 def _of_nose(base: float, known: Mapping[str, float]) -> tuple[float, float] | None:
@@ -231,7 +252,7 @@ def _require(found: Contour) -> None:
         raise NoSolution("the flank does not lead from the base circle to the nose")
 
 
-# The motion of a follower that slides
+# The motion of a follower
 
 
 class _Circle(NamedTuple):
@@ -306,41 +327,137 @@ class _Face(NamedTuple):
         return [along + self.radius, across, -along, -across][: order + 1]
 
 
+class _OnArc(NamedTuple):
+    """A roller on a rocker of which the centre Z goes round a point C of the cam, in the triangle A C Z.
+
+    Fields
+        center : complex [mm] - C
+        radius : float [mm] - of the centre's path, negative in a concave flank
+        rocker : Rocker
+        start : float [rad] - direction of the pivot A from the cam axis at cam angle 0
+    """
+
+    center: complex
+    radius: float
+    rocker: Rocker
+    start: float
+
+    def cosine(self, phi: Reals) -> Reals:
+        """Of the angle at the pivot between C and the roller's centre; beyond 1 they do not meet."""
+        away = np.abs(1.0 - self._share(phi)) * self.rocker.distance
+        arm = self.rocker.arm
+        return np.asarray((arm * arm + away * away - self.radius * self.radius) / (2.0 * arm * away))
+
+    def _share(self, phi: Reals) -> Any:
+        return self.center / self.rocker.distance * np.exp(-1j * (phi + self.start))
+
+    def height(self, phi: Reals, order: int) -> list[Reals]:
+        """Psi = sgn(rho) kappa - sigma nu, derived by the cam angle.
+
+        nu = arg f, ln D = ln(b |f|), f = 1 - q, q = C/A;   D cos(kappa) = (a^2 + D^2 - rho^2)/(2 a)
+        """
+        arm, way = self.rocker.arm, math.copysign(1.0, self.radius)
+        q = self._share(phi)
+        w = q / (1.0 - q)
+        turns = [np.log(1.0 - q), 1j * w, w * (1.0 + w), -1j * w * (1.0 + w) * (1.0 + 2.0 * w)]
+        away = np.abs(1.0 - q) * self.rocker.distance
+        g = self.cosine(phi)
+        h = (away * away + self.radius * self.radius - arm * arm) / (2.0 * arm * away)
+        s, square = np.sqrt((1.0 - g) * (1.0 + g)), (self.radius / arm) ** 2
+        # derivatives of kappa by ln D, then by the cam angle
+        k1, k2 = -h / s, -g * square / s**3
+        k3 = -square * (h / s**3 + 3.0 * g * g * h / s**5)
+        u1, u2, u3 = (turn.real for turn in turns[1:])
+        kappa = [np.arccos(g), k1 * u1, k2 * u1 * u1 + k1 * u2, k3 * u1**3 + 3.0 * k2 * u1 * u2 + k1 * u3]
+        found = [way * each - self.rocker.side * turn.imag for each, turn in zip(kappa, turns, strict=True)]
+        return found[: order + 1]
+
+    def extremes(self) -> tuple[float, ...]:
+        """Cam angles at which C lies on the line of cam axis and pivot."""
+        direct = cmath.phase(self.center) - self.start
+        return direct, direct + math.pi
+
+
+class _OnLine(NamedTuple):
+    """A roller on a rocker of which the centre goes along a straight line of the cam.
+
+    Fields
+        normal : float [rad] - direction of the line's normal
+        height_of_line : float [mm]
+        rocker : Rocker
+        start : float [rad] - direction of the pivot A from the cam axis at cam angle 0
+    """
+
+    normal: float
+    height_of_line: float
+    rocker: Rocker
+    start: float
+
+    def cosine(self, phi: Reals) -> Reals:
+        """cos chi = (b cos tau - h)/a,  tau from the line's normal to the pivot; beyond 1 they do not meet."""
+        tau = phi + self.start - self.normal
+        return np.asarray((self.rocker.distance * np.cos(tau) - self.height_of_line) / self.rocker.arm)
+
+    def height(self, phi: Reals, order: int) -> list[Reals]:
+        """Psi = sigma tau + chi, derived by the cam angle."""
+        tau, side = phi + self.start - self.normal, self.rocker.side
+        ratio, g = self.rocker.distance / self.rocker.arm, self.cosine(phi)
+        p, r, s = ratio * np.sin(tau), ratio * np.cos(tau), np.sqrt((1.0 - g) * (1.0 + g))
+        first = p / s
+        second = (r - g * first * first) / s
+        third = (p * (first * first - 1.0) - 3.0 * g * first * second) / s
+        return [side * tau + np.arccos(g), side + first, second, third][: order + 1]
+
+    def extremes(self) -> tuple[float, ...]:
+        """Cam angles at which the pivot lies on the line's normal through the cam axis."""
+        return self.normal - self.start, self.normal - self.start + math.pi
+
+
+Arc = _Circle | _Line | _Face | _OnArc | _OnLine
+
+
 class _Course(NamedTuple):
     """Where a follower passes from arc to arc, and how high it stands there.
 
     Fields
-        ends : cam angles [rad] at which flank, nose, nose behind its axis, and flank end
-        heights : [mm] at the base circle, where flank and nose meet, and on the nose's axis
-        arcs : flank, nose, flank
+        ends : cam angles [rad] at which flank, nose, the arc about the cam axis, nose behind it, and flank end
+        heights : [mm, of a rocker rad] at the base circle, where flank and nose meet, and on the nose's axis
+        arcs : flank, nose, nose, flank
     """
 
-    ends: tuple[float, float, float, float]
+    ends: tuple[float, float, float, float, float]
     heights: tuple[float, float, float]
-    arcs: tuple[_Circle | _Line | _Face, ...]
+    arcs: tuple[Arc, Arc, Arc, Arc]
 
 
-def contour_motion(found: Contour, reach: float | None, offset: float) -> FollowerMotion:
-    """The lift of a follower that slides, from the beginning of its rise.
+def contour_motion(found: Contour, reach: float | None, follower: float | Rocker) -> FollowerMotion:
+    """The lift of a follower, from the beginning of its rise.
 
     Parameters
-        reach : float [mm] - radius of the roller, 0 of a knife edge; None: a flat face
-        offset : float [mm] - eps e, the offset on the right of the travel of a cam that turns counter-clockwise
+        reach : float [mm] - radius of the roller, 0 of a knife edge; None: a flat face that slides
+        follower : float [mm] or Rocker - of one that slides eps e, the offset on the right of the travel of a cam that
+            turns counter-clockwise
+    Returns
+        motion : FollowerMotion - in mm, of a rocker in rad
     Raises
         NoSolution - a face on a flank that is not convex, a roller too large for a concave flank, a follower that jams
+            or does not reach the cam
     """
-    course = _under_face(found) if reach is None else _under_roller(found, reach, offset)
+    course = _course(found, reach, follower)
     start, middle, top = course.heights
-    flank, nose, back = course.arcs
-    stretches = zip(("flank", "nose", "nose", "flank"), course.ends, (middle, top, middle, start),
-                    (flank, nose, nose, back), strict=True)  # fmt: skip
+    flank, nose, behind, back = course.arcs
+    stretches = zip(("flank", "nose", DWELL, "nose", "flank"), course.ends, (middle, top, top, middle, start),
+                    (flank, nose, None, behind, back), strict=True)  # fmt: skip
     pieces: list[Piece] = []
     place, low = 0.0, 0.0
     for name, end, height, arc in stretches:
         if abs(end - place) < _NARROW:
             continue
+        if end < place:
+            message = f"the follower leaves the {name} of the profile before it reaches it"
+            raise NoSolution(message, key="profile", fix="increase follower.arm and follower.center_distance")
         piece = Piece(len(pieces) + 1, place, end, low, height - start, name)
-        pieces.append(replace(piece, shape=_shape(piece, start, arc.height)))
+        pieces.append(piece if arc is None else replace(piece, shape=_shape(piece, start, arc.height)))
         place, low = end, height - start
     if TURN - place < _NARROW:
         pieces[-1] = replace(pieces[-1], end=TURN)
@@ -359,8 +476,23 @@ def _shape(piece: Piece, start: float, height: Height) -> Shape:
     return shape
 
 
+def _course(found: Contour, reach: float | None, follower: float | Rocker) -> _Course:
+    if reach is None:
+        return _under_face(found)
+    _require_fit(found, reach)
+    return _on_rocker(found, reach, follower) if isinstance(follower, Rocker) else _under_roller(found, reach, follower)
+
+
+def _require_fit(found: Contour, reach: float) -> None:
+    """Refuse a roller that does not fit a concave flank."""
+    if found.flank is not None and found.flank < 0.0 and reach >= -found.flank:
+        limit = -found.flank
+        message = f"roller_radius: {unlike(reach, limit)} mm (limit < {unlike(limit, reach)} mm, the concave flank)"
+        raise NoSolution(message, key="follower.roller_radius", fix=f"use a roller below {short(limit)} mm")
+
+
 def _under_face(found: Contour) -> _Course:
-    whole, nose = 2.0 * found.ascent, _Face(found.nose_center, found.nose)
+    whole, nose = found.whole, _Face(found.nose_center, found.nose)
     if found.flank is None:
         joint, middle, flank, back = 0.0, found.base, nose, nose
     elif not 0.0 < found.flank < math.inf:
@@ -369,17 +501,23 @@ def _under_face(found: Contour) -> _Course:
     else:
         joint, flank = cmath.phase(found.joint_normal), _Face(found.flank_center, found.flank)
         middle, back = float(nose.height(np.array(joint), 0)[0]), flank._replace(center=_beyond(found, 0.0))
-    ends = joint, found.ascent, whole - joint, whole
-    return _Course(ends, (found.base, middle, found.distance + found.nose), (flank, nose, back))
+    ends = joint, found.ascent, found.ascent + found.dwell, whole - joint, whole
+    behind = nose._replace(center=_behind(found, 0.0))
+    return _Course(ends, (found.base, middle, found.distance + found.nose), (flank, nose, behind, back))
+
+
+def _behind(found: Contour, lead: float) -> complex:
+    """Centre of the nose behind the arc about the cam axis, turned by an angle."""
+    return found.nose_center * cmath.rect(1.0, found.dwell + lead)
 
 
 def _beyond(found: Contour, lead: float) -> complex:
     """Centre of the flank behind the nose, turned by an angle."""
-    return found.flank_center * cmath.rect(1.0, 2.0 * found.ascent + lead)
+    return found.flank_center * cmath.rect(1.0, found.whole + lead)
 
 
 def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
-    whole, prime = 2.0 * found.ascent, found.base + reach
+    whole, prime = found.whole, found.base + reach
     start = math.sqrt((prime - offset) * (prime + offset))
     lead = math.atan2(offset, start)
 
@@ -389,13 +527,10 @@ def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
         return lead + direction - math.atan2(offset, height), height
 
     nose = _Circle(found.nose_center * cmath.rect(1.0, lead), found.nose + reach, offset)
+    behind = nose._replace(center=_behind(found, lead))
     apex, top = passed(found.distance + found.nose + reach, found.ascent)
     if found.flank is None:
-        return _Course((0.0, apex, whole, whole), (start, start, top), (nose, nose, nose))
-    if found.flank < 0.0 and reach >= -found.flank:
-        limit = -found.flank
-        message = f"roller_radius: {unlike(reach, limit)} mm (limit < {unlike(limit, reach)} mm, the concave flank)"
-        raise NoSolution(message, key="follower.roller_radius", fix=f"use a roller below {short(limit)} mm")
+        return _Course((0.0, apex, apex, whole, whole), (start, start, top), (nose, nose, nose, nose))
     meeting = found.nose_center + (found.nose + reach) * found.joint_normal
     (rise, middle), (fall, _) = (
         passed(abs(meeting), direction) for direction in (cmath.phase(meeting), whole - cmath.phase(meeting))
@@ -411,31 +546,127 @@ def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
     if not math.isinf(found.flank):
         flank = _Circle(found.flank_center * cmath.rect(1.0, lead), found.flank + reach, offset)
         back = flank._replace(center=_beyond(found, lead))
-    return _Course((rise, apex, fall, whole), (start, middle, top), (flank, nose, back))
+    return _Course((rise, apex, apex + found.dwell, fall, whole), (start, middle, top), (flank, nose, behind, back))
 
 
-def arcs_table(found: Contour, motion: FollowerMotion, speed: float | None) -> Table:
+class Rocker(NamedTuple):
+    """A follower that turns about a pivot A, in the frame of the arcs.
+
+    Fields
+        arm, distance : float [mm] - a, from the pivot to the roller's centre, and b, to the cam axis
+        side : int - sigma: +1 where the centre lies left of the line from the cam axis to the pivot
+    """
+
+    arm: float
+    distance: float
+    side: int
+
+    def angle(self, size: float) -> float:
+        """Psi, from the line pivot to cam axis to the arm, with the roller's centre so far from the cam axis [rad]."""
+        return self._between(self.arm, self.distance, size)
+
+    def ahead(self, size: float) -> float:
+        """Angle at the cam axis between pivot and roller's centre [rad]."""
+        return self._between(self.distance, size, self.arm)
+
+    def _between(self, one: float, other: float, opposite: float) -> float:
+        cosine = (one * one + other * other - opposite * opposite) / (2.0 * one * other)
+        if not -1.0 < cosine < 1.0:
+            low, high = abs(self.arm - self.distance), self.arm + self.distance
+            raise NoSolution(
+                f"an arm of {short(self.arm)} mm, {short(self.distance)} mm from the cam axis, reaches the radii "
+                f"from {short(low)} to {short(high)} mm, and not the pitch curve of the profile",
+                key="follower.center_distance",
+                fix="change follower.arm or follower.center_distance",
+            )
+        return math.acos(cosine)
+
+
+def _on_rocker(found: Contour, reach: float, rocker: Rocker) -> _Course:
+    whole, prime, size = found.whole, found.base + reach, found.distance + found.nose + reach
+    start, side = -rocker.side * rocker.ahead(prime), rocker.side
+
+    def passed(size: float, direction: float) -> tuple[float, float]:
+        """Cam angle at which the roller's centre passes a point of its path, and the angle of the arm there."""
+        return direction - start - side * rocker.ahead(size), rocker.angle(size)
+
+    nose = _OnArc(found.nose_center, found.nose + reach, rocker, start)
+    behind = nose._replace(center=_behind(found, 0.0))
+    (apex, top), low = passed(size, found.ascent), rocker.angle(prime)
+    if found.flank is None:
+        course = _Course((0.0, apex, apex, whole, whole), (low, low, top), (nose, nose, nose, nose))
+        _require_free(course)
+        return course
+    meeting = found.nose_center + (found.nose + reach) * found.joint_normal
+    (rise, middle), (fall, _) = (
+        passed(abs(meeting), direction) for direction in (cmath.phase(meeting), whole - cmath.phase(meeting))
+    )
+    flank: _OnArc | _OnLine = _OnLine(0.0, prime, rocker, start)
+    back: _OnArc | _OnLine = _OnLine(whole, prime, rocker, start)
+    if not math.isinf(found.flank):
+        flank = _OnArc(found.flank_center, found.flank + reach, rocker, start)
+        back = flank._replace(center=_beyond(found, 0.0))
+    course = _Course((rise, apex, apex + found.dwell, fall, whole), (low, middle, top), (flank, nose, behind, back))
+    _require_free(course)
+    return course
+
+
+def _require_free(course: _Course) -> None:
+    """Refuse a rocker that jams: its arm, at some angle, along the normal of the profile or beyond its reach."""
+    (start, middle, top), ends = course.heights, (0.0, *course.ends)
+    stretches = zip(
+        course.arcs,
+        ((ends[k], ends[k + 1]) for k in (0, 1, 3, 4)),
+        ((start, middle), (middle, top), (top, middle), (middle, start)),
+        strict=True,
+    )
+    for arc, (low, high), heights in stretches:
+        assert isinstance(arc, _OnArc | _OnLine), "of a rocker"
+        if high - low < _NARROW:
+            continue
+        inside = [low + turned for each in arc.extremes() if (turned := (each - low) % TURN) < high - low]
+        free = bool(np.abs(arc.cosine(np.array([low, *inside, high]))).max() < 1.0 - _JAMS)
+        # Where the centre comes to an end on the other side of the normal, the cam has turned back meanwhile.
+        if not free or np.abs(arc.height(np.array([low, high]), 0)[0] - heights).max() > _OTHER_SIDE:
+            raise NoSolution(
+                "the pressure angle reaches 90 deg: the follower jams",
+                key="profile",
+                fix="change follower.center_distance or follower.arm",
+            )
+
+
+def arcs_table(found: Contour, motion: FollowerMotion, speed: float | None, *, oscillates: bool = False) -> Table:
     """Each arc with its radius, the lift at its end, and velocity and acceleration at both ends, in time as well at a
     speed [rad/s].
 
     Notes
         The end of an arc and the start of the next are the two sides of the jump between them.
     """
-    radii = {"flank": found.flank, "nose": found.nose, DWELL: found.base}
     pieces = motion.pieces
+    arcs = [_arc_of(found, piece) for piece in pieces]
+    lift = "deg" if oscillates else "mm"
     columns: dict[str, tuple[Any, str]] = {
         "segment": ([piece.number for piece in pieces], "1"),
         "start": ([math.degrees(piece.start) for piece in pieces], "deg"),
         "end": ([math.degrees(piece.end) for piece in pieces], "deg"),
-        "arc": (["base circle" if piece.name == DWELL else piece.name for piece in pieces], "1"),
-        "radius": ([None if math.isinf(radii[piece.name] or 0.0) else radii[piece.name] for piece in pieces], "mm"),
-        "lift": ([piece.high for piece in pieces], "mm"),
+        "arc": ([name for name, _ in arcs], "1"),
+        "radius": ([None if radius is None or math.isinf(radius) else radius for _, radius in arcs], "mm"),
+        "lift": ([math.degrees(piece.high) if oscillates else piece.high for piece in pieces], lift),
     }
     ends = [piece.evaluate(np.array([0.0, 1.0]), 2) for piece in pieces]
-    ways = [("", 1.0, "rad")] + ([] if speed is None else [("follower_", speed, "s")])
-    for before, rate, unit in ways:
-        for order, curve in enumerate(("velocity", "acceleration"), 1):
+    by_angle = ("1", "1/rad") if oscillates else ("mm/rad", "mm/rad^2")
+    by_time = ("rad/s", "rad/s^2") if oscillates else ("mm/s", "mm/s^2")
+    ways = [("", 1.0, by_angle)] + ([] if speed is None else [("follower_", speed, by_time)])
+    for before, rate, units in ways:
+        for order, (curve, unit) in enumerate(zip(("velocity", "acceleration"), units, strict=True), 1):
             for k, end in enumerate(("start", "end")):
                 values = np.array([each[order][k] * rate**order for each in ends])
-                columns[f"{before}{curve}_{end}"] = (values, f"mm/{unit}{'^2' * (order == 2)}")
+                columns[f"{before}{curve}_{end}"] = (values, unit)
     return Table.of("arcs", columns)
+
+
+def _arc_of(found: Contour, piece: Piece) -> tuple[str, float | None]:
+    """Name and radius [mm] of the arc of a stretch."""
+    if piece.name == DWELL:
+        return ("outer circle", found.distance + found.nose) if piece.low > 0.0 else ("base circle", found.base)
+    return piece.name, found.flank if piece.name == "flank" else found.nose

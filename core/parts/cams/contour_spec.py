@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from gearlink.core.base.spec import Length, SignedLength, Spec, also, refused, unit
 
 ActionAngle = Annotated[float, unit("deg", gt=0, le=360)]
+DwellAngle = Annotated[float, unit("deg", ge=0, lt=360)]
 ArcAngle = Annotated[float, unit("deg", gt=0, lt=180)]
 
 
@@ -22,9 +23,10 @@ class _Lobe(Spec):
     lift: Length | None = Field(None, description="height of the nose above the base circle")
     action_angle: ActionAngle | None = Field(
         None,
-        description="from the start of the rise to the end of the return: twice the angle of ascent",
+        description="from the start of the rise to the end of the return: twice the angle of ascent, and dwell_angle",
         json_schema_extra={"unit": "deg", **also("angle_of_action")},
     )
+    dwell_angle: DwellAngle = Field(0.0, description="of the arc about the cam axis at the top, for a dwell there")
 
     def given(self) -> dict[str, float]:
         """The sizes that the file gives."""
@@ -40,6 +42,9 @@ class _Lobe(Spec):
             message = f"sizes of the profile: {len(given)} of {names} (required {self.wanted})"
             message += f"\n{'give' if missing else 'keep'} {count} of them; the other sizes follow"
             raise refused(message, "type" if missing else given[-1])
+        if self.action_angle is not None and self.dwell_angle >= self.action_angle:
+            message = f"dwell_angle: {self.dwell_angle:g} deg (limit < {self.action_angle:g} deg, action_angle)"
+            raise refused(f"{message}\nset profile.dwell_angle below {self.action_angle:g} deg", "dwell_angle")
         return self
 
 
@@ -75,9 +80,9 @@ class CircularArcProfile(_Lobe):
         if self.flank_angle is not None:
             if self.action_angle is None:
                 raise refused("flank_angle needs action_angle\ngive action_angle", "flank_angle")
-            if self.flank_angle >= 0.5 * self.action_angle:
-                most = 0.5 * self.action_angle
-                message = f"flank_angle: {self.flank_angle:g} deg (limit < {most:g} deg, half the action_angle)"
+            most = 0.5 * (self.action_angle - self.dwell_angle)
+            if self.flank_angle >= most:
+                message = f"flank_angle: {self.flank_angle:g} deg (limit < {most:g} deg, the angle of ascent)"
                 raise refused(f"{message}\nset profile.flank_angle below {most:g} deg", "flank_angle")
         if self.flank_radius == 0.0:
             raise refused("flank_radius: 0 mm (must not be 0)\nfor straight flanks set type: tangent", "flank_radius")

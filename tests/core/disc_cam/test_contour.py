@@ -14,13 +14,14 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.cams.contour import Contour, contour, contour_motion
+from gearlink.core.parts.cams.contour import Contour, Rocker, contour, contour_motion
 from gearlink.core.parts.cams.contour_spec import CamProfile
 
 TANGENT = {"type": "tangent", "base_radius": 30, "lift": 17.5, "action_angle": 150}
 ARCS = {"type": "circular-arc", "base_radius": 30, "nose_radius": 5, "lift": 20, "action_angle": 150}
 HOLLOW = {"type": "circular-arc", "base_radius": 30, "nose_radius": 10, "lift": 15, "flank_radius": -150}
 DISC = {"type": "eccentric", "radius": 37.5, "eccentricity": 25}
+STANDING = {**ARCS, "dwell_angle": 30}
 ROLLER = {"type": "translating-roller", "roller_radius": 17.5}
 READ: Any = TypeAdapter(CamProfile)
 
@@ -35,38 +36,75 @@ def sizes(**given: Any) -> Contour:
 
 
 def outline(found: Contour, count: int = 40_000) -> np.ndarray:
-    """The profile by the centres of its arcs, the nose on +x: where its rays meet them, the farthest of all within."""
-    ray = np.exp(1j * np.linspace(-math.pi, math.pi, count, endpoint=False))
+    """The profile by the centres of its arcs, its middle on +x: where its rays meet them, the farthest of all."""
+    all_rays = np.exp(1j * np.linspace(-math.pi, math.pi, count, endpoint=False))
+    if found.flank is None:
+        along = all_rays.real * found.distance
+        return all_rays * (along + np.sqrt(found.nose**2 - found.distance**2 + along**2))
+    outer = np.abs(np.angle(all_rays)) <= 0.5 * found.dwell
+    reach = np.where(outer, found.distance + found.nose, found.base)
+    for side in (1.0, -1.0):
+        ray = all_rays * np.exp(-0.5j * side * found.dwell)
+        lobe = one_side(found, ray, side)
+        reach = np.where(side * np.angle(ray) >= 0.0, np.maximum(reach, lobe), reach)
+    return all_rays * reach
+
+
+def one_side(found: Contour, ray: np.ndarray, side: float) -> np.ndarray:
+    """Radii of nose and flank of one side, the nose on +x."""
 
     def leaving(center: complex, radius: float) -> np.ndarray:
         along = (ray * np.conj(center)).real
         square = radius**2 - abs(center) ** 2 + along**2
         return np.where(square > 0.0, along + np.sqrt(np.maximum(square, 0.0)), -np.inf)
 
+    assert found.flank is not None
     reach = np.maximum(found.base, leaving(complex(found.distance), found.nose))
-    if found.flank is None:
-        return ray * leaving(complex(found.distance), found.nose)
-    for side in (1.0, -1.0):
-        start = np.exp(1j * side * found.ascent)  # where this flank leaves the base circle
-        center = -(found.flank - found.base) * start
-        if math.isinf(found.flank):
-            ends = found.base * start, complex(found.distance) + found.nose * start
-            normal = start
-            reach_of = found.base / np.where((ray * np.conj(normal)).real > 0.0, (ray * np.conj(normal)).real, np.nan)
-        else:
-            way = (found.distance - center) * math.copysign(1.0, found.flank)
-            ends = found.base * start, complex(found.distance) + found.nose * way / abs(way)
-            along = (ray * np.conj(center)).real
-            square = np.maximum(found.flank**2 - abs(center) ** 2 + along**2, 0.0)
-            reach_of = along + math.copysign(1.0, found.flank) * np.sqrt(square)
-        low, high = sorted(np.angle(end) for end in ends)
-        inside = (np.angle(ray) >= low) & (np.angle(ray) <= high)
-        reach = np.where(inside, reach_of, reach)
-    return ray * reach
+    start = np.exp(1j * side * found.ascent)  # where this flank leaves the base circle
+    center = -(found.flank - found.base) * start
+    if math.isinf(found.flank):
+        ends = found.base * start, complex(found.distance) + found.nose * start
+        normal = start
+        reach_of = found.base / np.where((ray * np.conj(normal)).real > 0.0, (ray * np.conj(normal)).real, np.nan)
+    else:
+        way = (found.distance - center) * math.copysign(1.0, found.flank)
+        ends = found.base * start, complex(found.distance) + found.nose * way / abs(way)
+        along = (ray * np.conj(center)).real
+        square = np.maximum(found.flank**2 - abs(center) ** 2 + along**2, 0.0)
+        reach_of = along + math.copysign(1.0, found.flank) * np.sqrt(square)
+    low, high = sorted(np.angle(end) for end in ends)
+    inside = (np.angle(ray) >= low) & (np.angle(ray) <= high)
+    return np.where(inside, reach_of, reach)
+
+
+def ahead_of(found: Contour, follower: dict[str, Any]) -> float:
+    """Angle at the cam axis from the pivot to the centre of a rocker's roller at lift 0, by the cosine rule [rad]."""
+    a, b, prime = follower["arm"], follower["center_distance"], found.base + follower.get("roller_radius", 0.0)
+    return math.acos((b * b + prime * prime - a * a) / (2.0 * b * prime))
+
+
+def rocked(points: np.ndarray, phi: float, sense: int, found: Contour, follower: dict[str, Any]) -> float:
+    """Angle of an arm, its pivot on +x, that is let down on the outline at a cam angle [rad]."""
+    a, b, side = follower["arm"], follower["center_distance"], follower["side"]
+    reach = follower.get("roller_radius", 0.0)
+    first = side * ahead_of(found, follower) - sense * 0.5 * found.whole
+    z = points * np.exp(1j * (first + sense * phi))
+    away, turned = np.abs(b - z), side * np.angle((b - z) / b)
+    if not reach:  # an edge stands where the outline crosses the circle of the arm
+        turned = -turned
+        ahead = np.roll(np.arange(z.size), -1)
+        cut = (away <= a) != (away[ahead] <= a)
+        share = (a - away[cut]) / (away[ahead][cut] - away[cut])
+        return float(np.max(turned[cut] + share * (turned[ahead][cut] - turned[cut])))
+    near = np.abs(away - a) < reach
+    cosine = (a * a + away[near] ** 2 - reach * reach) / (2.0 * a * away[near])
+    return float(np.max(np.arccos(cosine) - turned[near]))
 
 
 def let_down(points: np.ndarray, phi: float, sense: int, found: Contour, follower: dict[str, Any]) -> float:
-    """Height of a follower that travels along +y and stands on the outline at a cam angle."""
+    """Height of a follower that travels along +y, or angle of a rocker, that stands on the outline at a cam angle."""
+    if "arm" in follower:
+        return rocked(points, phi, sense, found, follower)
     e = sense * follower.get("offset", 0.0)
     if follower["type"].endswith("flat"):
         lead = 0.0
@@ -74,7 +112,7 @@ def let_down(points: np.ndarray, phi: float, sense: int, found: Contour, followe
         prime = found.base + follower.get("roller_radius", 0.0)
         lead = math.asin(e / prime)
     # at cam angle 0 the flank begins below the follower; a cam that turns clockwise is the mirror image
-    z = points * np.exp(-1j * (found.ascent + lead - phi)) * 1j
+    z = points * np.exp(-1j * (0.5 * found.whole + lead - phi)) * 1j
     if follower["type"].endswith("flat"):
         return float(z.imag.max())
     z = z - e
@@ -89,6 +127,8 @@ def let_down(points: np.ndarray, phi: float, sense: int, found: Contour, followe
 
 EDGE = {"type": "translating-knife-edge", "offset": 4.0}
 FLAT = {"type": "translating-flat"}
+ROCKER = {"type": "oscillating-roller", "roller_radius": 17.5, "arm": 95.0, "center_distance": 120.0, "side": 1}
+ROCKING_EDGE = {"type": "oscillating-knife-edge", "arm": 90.0, "center_distance": 110.0, "side": 1}
 PAIRS = [
     (TANGENT, {**ROLLER, "offset": 5.0}),
     (ARCS, FLAT),
@@ -98,6 +138,16 @@ PAIRS = [
     (DISC, {**ROLLER, "offset": 3.0}),
     (TANGENT, EDGE),
     (HOLLOW, {**EDGE, "offset": -3.0}),
+    (STANDING, {**ROLLER, "offset": 4.0}),
+    (STANDING, FLAT),
+    ({**HOLLOW, "dwell_angle": 40}, EDGE),
+    (TANGENT, ROCKER),
+    (ARCS, {**ROCKER, "side": -1}),
+    (HOLLOW, {**ROCKER, "arm": 140.0, "center_distance": 110.0}),
+    (DISC, ROCKER),
+    (STANDING, {**ROCKER, "side": -1}),
+    ({**TANGENT, "dwell_angle": 25}, {**ROCKING_EDGE, "side": -1}),
+    (HOLLOW, ROCKING_EDGE),
 ]
 
 
@@ -125,7 +175,8 @@ def test_the_profile_of_the_motion_is_the_outline(profile: dict[str, Any], follo
     flat = follower["type"].endswith("flat")
     prime = found.base + follower.get("roller_radius", 0.0)
     lead = 0.0 if flat else math.asin(follower.get("offset", 0.0) / prime)
-    nose = 1j * np.exp(-1j * (found.ascent + lead))
+    start = follower["side"] * ahead_of(found, follower) if "arm" in follower else 0.5 * math.pi - lead
+    nose = np.exp(1j * (start - 0.5 * found.whole))
     wanted = outline(found)
     radius = np.interp(np.angle(z / nose), np.angle(wanted), np.abs(wanted), period=2.0 * math.pi)
     assert np.abs(z) == pytest.approx(radius, abs=1e-5)
@@ -134,12 +185,17 @@ def test_the_profile_of_the_motion_is_the_outline(profile: dict[str, Any], follo
 class Place:
     """Height of a follower on an arc about a centre, or on a line with a normal, by the root of its distance."""
 
-    def __init__(self, follower: dict[str, Any], arc: tuple[Any, Any, Any], near: float) -> None:
+    def __init__(self, follower: dict[str, Any], arc: tuple[Any, Any, Any], near: float, start: Any) -> None:
         self.flat, self.near = follower["type"].endswith("flat"), near
         self.reach, self.e = follower.get("roller_radius", 0.0), follower.get("offset", 0.0)
         self.normal, self.center, self.radius = arc
+        self.follower, self.start = follower, start
 
     def __call__(self, phi: Any) -> Any:
+        if "arm" in self.follower:  # the cam turns counter-clockwise: its mirror image has the other side
+            a, b, side = self.follower["arm"], self.follower["center_distance"], -self.follower["side"]
+            pivot = mpmath.expj(phi - side * self.start)
+            return mpmath.findroot(lambda psi: self.off(pivot * (b - a * mpmath.expj(-side * psi))), self.near)
         if self.flat:
             return mpmath.re(self.center * mpmath.expj(-phi)) + self.radius
         return mpmath.findroot(lambda y: self.off(mpmath.expj(phi) * (y + 1j * self.e)), self.near)
@@ -153,8 +209,9 @@ class Place:
 def arc_of(found: Contour, lead: Any, name: str, behind: bool) -> tuple[Any, Any, Any]:
     """Normal and distance of a straight flank, or centre and radius."""
     if name == "nose" or found.flank is None:
-        return None, found.distance * mpmath.expj(found.ascent + lead), found.nose
-    normal = mpmath.expj(lead + (2 * found.ascent if behind else 0))
+        turned = found.dwell if behind else 0
+        return None, found.distance * mpmath.expj(found.ascent + lead + turned), found.nose
+    normal = mpmath.expj(lead + (found.whole if behind else 0))
     if math.isinf(found.flank):
         return normal, None, found.base
     return None, (found.base - found.flank) * normal, found.flank
@@ -167,22 +224,30 @@ def test_derivatives_are_those_of_the_place_by_30_digits(profile: dict[str, Any]
     design = cam(profile, follower)
     motion, found = design.cams.motion, design.contour
     flat = follower["type"].endswith("flat")
-    start = found.base if flat else design.cams.start_height
+    rocks = "arm" in follower
+    start = found.base if flat else design.cams.place.start if rocks else design.cams.start_height
     with mpmath.workdps(30):
         prime = found.base + follower.get("roller_radius", 0.0)
-        lead = 0 if flat else mpmath.asin(mpmath.mpf(follower.get("offset", 0.0)) / prime)
+        ahead = _ahead(prime, follower) if rocks else 0
+        lead = 0 if flat or rocks else mpmath.asin(mpmath.mpf(follower.get("offset", 0.0)) / prime)
         for piece in motion.pieces:
             if piece.name == "dwell":
                 continue
-            arc = arc_of(found, lead, piece.name, piece.start > found.ascent)
+            arc = arc_of(found, lead, piece.name, 0.5 * (piece.start + piece.end) > 0.5 * found.whole)
             for share in (0.1, 0.6, 0.93):
                 phi = piece.start + share * piece.width
                 values = [float(each[0]) for each in motion.evaluate(np.array([phi]), 3)]
-                place = Place(follower, arc, values[0] + start)
+                place = Place(follower, arc, values[0] + start, ahead)
                 assert float(place(mpmath.mpf(phi))) == pytest.approx(values[0] + start, rel=1e-12)
                 for order in (1, 2, 3):
                     wanted = float(mpmath.diff(place, mpmath.mpf(phi), order))
                     assert values[order] == pytest.approx(wanted, rel=1e-9, abs=1e-9), (piece.name, order)
+
+
+def _ahead(prime: float, follower: dict[str, Any]) -> Any:
+    """As `ahead_of`, with 30 digits."""
+    a, b = mpmath.mpf(follower["arm"]), mpmath.mpf(follower["center_distance"])
+    return mpmath.acos((b * b + prime * prime - a * a) / (2 * b * prime))
 
 
 def test_a_tangent_cam_has_the_formulas_of_the_textbook() -> None:
@@ -338,9 +403,11 @@ def test_what_cannot_be_is_refused(profile: dict[str, Any], follower: dict[str, 
         ({"cam": {"prime_radius": 50}}, "profile determines the radius of the cam"),
         ({"cam": {"size": {"pressure_angle": 30}}}, "omit cam.size"),
         (
-            {"follower": {"type": "oscillating-roller", "roller_radius": 10, "arm": 60, "center_distance": 90}},
-            "applies only to a follower that slides",
+            {"follower": {"type": "oscillating-roller", "roller_radius": 10, "arm": 60}},
+            "position of the pivot is not sought",
         ),
+        ({"follower": {"type": "oscillating-flat", "center_distance": 90}}, "not apply to a flat face that rocks"),
+        ({"profile": {**TANGENT, "dwell_angle": 150}}, r"dwell_angle: 150 deg \(limit < 150 deg, action_angle"),
         ({"profile": None}, "the key 'motion' is missing"),
         ({"follower": {**ROLLER, "offset": 48}}, r"limit < 47.5 mm, profile.base_radius"),
         ({"follower": {**ROLLER, "offset": "best"}}, "offset: best applies only with cam.size"),
@@ -363,6 +430,74 @@ def test_a_follower_jams_where_its_pressure_angle_reaches_90_deg() -> None:
     for found, offset in ((concave, 0.0), (straight, -32.9), (straight, 32.9)):
         motion = contour_motion(found, 3.0, offset)
         assert np.isfinite(motion.evaluate(np.linspace(0.0, 6.28, 500), 3)).all()
+
+
+@pytest.mark.parametrize(
+    ("found", "reach", "rocker"),
+    [
+        (sizes(type="tangent", base_radius=34.0, nose_radius=10.0, nose_distance=44.0), 12.0, Rocker(155.0, 111.0, -1)),
+        (sizes(**HOLLOW), 8.0, Rocker(80.0, 45.0, -1)),
+    ],
+)
+def test_a_rocker_that_jams_is_refused(found: Contour, reach: float, rocker: Rocker) -> None:
+    """With the pivot close to the cam, of an arm that reaches across it: its normal passes the pivot."""
+    with pytest.raises(NoSolution, match="the pressure angle reaches 90 deg: the follower jams"):
+        contour_motion(found, reach, rocker)
+
+
+def test_a_rocker_that_does_not_reach_the_cam_is_refused() -> None:
+    with pytest.raises(NoSolution, match="reaches the radii from 70 to 130 mm, and not the pitch curve"):
+        contour_motion(sizes(**ARCS), 10.0, Rocker(30.0, 100.0, 1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(60))
+def test_random_rockers_are_let_down_on_their_cams(seed: int) -> None:
+    """As above, in any place: near a jam the error of the outline grows with the slope of the lift, here below 20."""
+    dice = random.Random(seed)
+    base, every = drawn(seed)
+    kind = ("tangent", "circular-arc", "circular-arc")[seed % 3]
+    names = ("nose_radius", "nose_distance") if kind == "tangent" else ("nose_radius", "nose_distance", "flank_radius")
+    dwell = dice.choice([0.0, 20.0, 45.0])
+    found = sizes(type=kind, base_radius=base, dwell_angle=dwell, **{name: every[name] for name in names})
+    reach, sense = dice.uniform(3.0, 0.4 * base), dice.choice([1, -1])
+    follower = {"type": "oscillating-roller", "roller_radius": reach, "side": dice.choice([1, -1]),
+                "arm": dice.uniform(40.0, 180.0), "center_distance": dice.uniform(60.0, 200.0)}  # fmt: skip
+    try:
+        motion = contour_motion(
+            found, reach, Rocker(follower["arm"], follower["center_distance"], -sense * follower["side"])
+        )
+    except NoSolution:
+        return
+    points = outline(found)
+    start = rocked(points, 0.0, sense, found, follower)
+    for phi in np.linspace(0.05, 2.0 * math.pi, 40):
+        lift, slope = (float(each[0]) for each in motion.evaluate(np.array([phi]), 1))
+        if abs(slope) < 20.0:
+            assert lift == pytest.approx(rocked(points, phi, sense, found, follower) - start, abs=1e-5), phi
+
+
+def test_rise_dwell_and_return_fit_into_a_revolution() -> None:
+    with pytest.raises(NoSolution, match=r"\(limit <= 360 deg\)") as told:
+        sizes(type="tangent", base_radius=30.0, nose_radius=12.5, lift=17.5, dwell_angle=250.0)
+    limit = float(str(told.value.fix).split()[-2])
+    found = sizes(type="tangent", base_radius=30.0, nose_radius=12.5, lift=17.5, dwell_angle=limit)
+    assert math.radians(359.8) < found.whole < 2.0 * math.pi
+
+
+def test_a_dwell_at_the_top_is_one() -> None:
+    """Heights, and the arcs on both sides, are those of the lobe without it, the return later by the dwell."""
+    dwell = math.radians(30.0)
+    for profile, follower in ((STANDING, ROCKER), (STANDING, FLAT), ({**TANGENT, "dwell_angle": 30.0}, ROLLER)):
+        shorter = {**profile, "dwell_angle": 0.0, "action_angle": profile["action_angle"] - 30.0}
+        one, other = (cam(each, follower).cams.motion for each in (profile, shorter))
+        top = float(one.pieces[2].start)
+        phi = np.linspace(0.0, 2.0 * math.pi - dwell, 500)
+        moved = np.where(phi > top, phi + dwell, phi)
+        for a, b in zip(one.evaluate(moved, 1), other.evaluate(phi, 1), strict=True):
+            np.testing.assert_allclose(a, b, rtol=0.0, atol=1e-12 * max(np.abs(b).max(), 1.0))
+        lift = one.evaluate(top + dwell * np.array([0.1, 0.5, 0.9]), 1)
+        assert (lift[0] == pytest.approx(one.pieces[2].low, abs=1e-12), np.abs(lift[1]).max() < 1e-12) == (True, True)
 
 
 def test_two_noses_that_touch_one_flank_are_told() -> None:

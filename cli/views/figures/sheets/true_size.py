@@ -397,7 +397,10 @@ def _arcs(contour: Contour) -> str:
         return f"R{contour.nose:g}, its centre {contour.distance:.4f} mm from the axis"
     flank = "straight flanks" if math.isinf(contour.flank) else f"flanks R{contour.flank:.4f}"
     nose = f"nose R{contour.nose:.4f}, its centre {contour.distance:.4f} mm from the axis"
-    return f"base circle R{contour.base:g}, {flank}, {nose}, action {2.0 * math.degrees(contour.ascent):.4f} deg"
+    outer = (
+        f"R{contour.distance + contour.nose:.4f} over {math.degrees(contour.dwell):g} deg, " if contour.dwell else ""
+    )
+    return f"base circle R{contour.base:g}, {flank}, {nose}, {outer}action {math.degrees(contour.whole):.4f} deg"
 
 
 def _toleranced(sized: Sequence[str], errors: Sequence[str]) -> str:
