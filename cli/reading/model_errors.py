@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 # Words for values that a design file gives and for those that it should give
 
 NO_UNIT = "a unit is not allowed here"
+CONVERT = "convert the number to the unit of this key"
+"""Where the unit of a key goes with another key: the bare number would be another size."""
 
 
 def without_unit(number: str, written: str, unit: str) -> str:
@@ -382,7 +384,10 @@ class _Wording:
             if near := get_close_matches(value[:100].strip().lower(), known, n=1):
                 return f"did you mean {known[near[0]]}?"
             if kinds & {"int_type", "float_type"}:
-                return number_remedy(value, unit_at(self.model, group[0].path, self.loaded.data))
+                unit = unit_at(self.model, group[0].path, self.loaded.data)
+                remedy = number_remedy(value, unit)
+                whole = "int_type" in kinds
+                return remedy if unit or whole or not remedy.startswith(NO_UNIT) else f"{NO_UNIT}: {CONVERT}"
             if kinds & {"list_type", "tuple_type"}:
                 return list_remedy(value)
             return truth_remedy(value) if "bool_type" in kinds else ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import types
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -131,7 +132,26 @@ def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     turning = next((each.turning for each in said if isinstance(each, OfFollower)), None)
     if turning is not None:
         unit = _of_follower(path, data, unit, turning)
-    return "" if unit.startswith("the ") or path[:1] == ("tolerance",) else unit
+    return "" if unit.startswith("the ") else _of_source(model, path, data, unit)
+
+
+_SIZES_OF_A_SOURCE = ("plus_minus", "lower", "upper", "limits", "sigma", "mode", "measured")
+
+
+def _of_source(model: type[BaseModel], path: KeyPath, data: Any, unit: str) -> str:
+    """The unit of a key of `tolerance`: the size of a source has that of the key that the source names.
+
+    A source that names a part, as `pins.A` and `centers.crank_idler` do, is in mm.
+    """
+    places = (i for i in range(len(path) - 3) if path[i : i + 2] == ("tolerance", "sources"))
+    at = next(places, None)
+    if at is None or path[at + 3] not in _SIZES_OF_A_SOURCE:
+        return unit
+    steps = tuple(int(step) if step.isdecimal() else step for step in re.findall(r"[^.\[\]]+", str(path[at + 2])))
+    key = (*path[:at], *steps)
+    if any(shape is float for shape, _ in shapes_at(model, key, data)[0]):
+        return unit_at(model, key, data)
+    return "" if steps[:1] == ("members",) else unit
 
 
 def entry_unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec, refused, unit
+from gearlink.core.base.spec import Angle, Distance, Entries, Length, Spec, refused, unit
 from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import unlike
 
@@ -300,8 +300,8 @@ class CommonLoads(Spec):
     flywheel: Flywheel | None = None
     motor: Motor | None = None
     bearings: Annotated[dict[str, Bearing], Field(max_length=100)] = Field({}, description="bearings by the pin's name")
-    backlash: Share | dict[str, Share] | None = Field(
-        None, description="play of the teeth at the pitch circle, of all meshes or by mesh [mm]"
+    backlash: Distance | dict[str, Distance] | None = Field(
+        None, description="play of the teeth at the pitch circle, of all meshes or by mesh"
     )
     vibration: Vibration | None = None
 

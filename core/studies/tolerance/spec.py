@@ -34,7 +34,7 @@ Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
 class ToleranceSource(Spec):
     """Tolerance of one dimension: its limits in one of several forms, and its distribution."""
 
-    plus_minus: Width | None = Field(None, description="limits at the same distance to either side")
+    plus_minus: Width | None = Field(None, description="limits at the same distance to either side; of an angle in deg")
     lower: Deviation | None = Field(None, description="lower limit of the deviation")
     upper: Deviation | None = Field(None, description="upper limit of the deviation")
     limits: Pair | None = Field(None, description="[lower, upper] limit of the deviation")

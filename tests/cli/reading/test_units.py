@@ -10,11 +10,16 @@ import pytest
 
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.reading.units import UNITS, converted, split, wrong_unit
+from gearlink.cli.reading.units import UNITS, convert, converted, split, wrong_unit
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
 
 HEAD = b"kind: slider-crank\n"
+
+
+def validate_units(loaded: Any, kind: str) -> None:
+    """Put numbers instead of the values with units; nothing may be left to say."""
+    assert convert(loaded, KINDS[kind].spec_model()) == []
 
 
 def spec(text: str, kind: str = "slider-crank") -> Any:
@@ -153,6 +158,52 @@ def test_loads_and_set_take_units() -> None:
                    overrides=["stroke=0.31 m"])  # fmt: skip
     made = validate(loaded, SliderCrankSpec)
     assert (made.stroke, made.loads.speed, made.loads.links.slider.mass) == (310.0, 120.0, 4.5359237)
+
+
+def test_sizes_of_a_source_have_the_unit_of_the_key_that_it_names() -> None:
+    """Lengths and angles, columns of lists and parts without a key; what has a unit of its own keeps it."""
+    text = (
+        "arm: {length: 300, direction: 125}\nlinks: {input: 150, coupler: 260, output: 100}\n"
+        "pivots: {input: [230, 0], output: [498, 55]}\ntolerance: {sources: {arm.direction: {plus_minus: 3 arcmin}, "
+        "links.input: {limits: [-1 thou, 20 um], law: triangular, mode: 5 um}, 'pivots.output[0]': {sigma: 1 mil}, "
+        "pins.C: {fit: H7/g6, size: 2 cm}, pins.D: {clearance: [2 um, 8 um]}, "
+        "links.output: {measured: 4 in}}}\nregister: {tolerance: 4 thou}"
+    )
+    sources = parse(f"kind: swing-gripper\n{text}".encode(), "x.yaml")
+    validate_units(sources, "swing-gripper")
+    found = sources.data["tolerance"]["sources"]
+    assert found["arm.direction"]["plus_minus"] == pytest.approx(0.05, rel=1e-15)
+    assert found["links.input"]["limits"] == pytest.approx([-0.0254, 0.02], rel=1e-15)
+    assert found["links.input"]["mode"] == pytest.approx(0.005, rel=1e-15)
+    assert found["pivots.output[0]"]["sigma"] == pytest.approx(0.0254, rel=1e-15)
+    assert (found["pins.C"]["size"], found["links.output"]["measured"]) == (20.0, pytest.approx(101.6, rel=1e-15))
+    assert found["pins.D"]["clearance"] == pytest.approx([0.002, 0.008], rel=1e-15)
+
+
+def test_a_source_in_another_unit_than_its_key_is_refused() -> None:
+    text = "stroke: 310\nrod: 520\ntolerance: {sources: {stroke: {plus_minus: 1 arcmin}, rod: {sigma: 2 thou}}}"
+    with pytest.raises(DesignFileError) as refused:
+        spec(text)
+    assert [(found.code, found.message) for found in refused.value.diagnostics] == [
+        ("GL181", "arcmin is an angle, tolerance.sources.stroke.plus_minus is in mm")
+    ]
+
+
+def test_a_key_whose_unit_is_not_known_is_not_told_to_lose_one() -> None:
+    """The lift at a cam pair of a planar mechanism is mm or deg, as the follower is a slide or a link."""
+    text = (
+        "frame: {O: [0, 0], A: [100, 0]}\nlinks: {cam: {O: [0, 0]}, arm: [A, R, 60]}\ndrive: {link: cam}\n"
+        "cams: {pair: {cam: cam, follower: arm, roller_radius: 9, point: R, "
+        "motion: [{to: 180, lift: 5 thou}, {to: 360, lift: 0}]}}\nstart: {arm: 150}"
+    )
+    with pytest.raises(DesignFileError) as refused:
+        spec(text, "planar-mechanism")
+    helps = [found.help for found in refused.value.diagnostics if found.key == "cams.pair.motion[0].lift"]
+    assert helps == ["a unit is not allowed here: convert the number to the unit of this key"]
+
+
+def test_play_of_the_teeth_is_a_length() -> None:
+    assert spec("stroke: 310\nrod: 520\nloads: {speed: 60, backlash: 2 thou}").loads.backlash == 0.0508
 
 
 @pytest.mark.parametrize(
