@@ -898,13 +898,13 @@ class MeasuredCamDesign(DiscCamDesign):
 
 def _find_together(designs: Sequence[MeasuredCamDesign]) -> None:
     """Followers on one profile, turned to where that of the first stands; the strokes are those of the first."""
-    first, series = designs[0], designs[0].cam.series
-    for design in designs:
-        keep(design, cam=design.cam_of(series), residuals=first.residuals)
-    cams, turns = zip(*(design.cam.turned(first.cam) for design in designs), strict=True)
+    first = designs[0]
     follower = {key: getattr(first.spec.follower, key) for key in _TURNING if hasattr(first.spec.follower, key)}
     specs = [one.spec.model_copy(update={"follower": one.spec.follower.model_copy(update=follower)}) for one in designs]
-    many = type(first)(together(specs, _ALIKE))
+    many = type(first)(together(specs, _ALIKE))  # before anything is kept: designs of other profiles are unlike
+    for design in designs:
+        keep(design, cam=design.cam_of(first.cam.series), residuals=first.residuals)
+    cams, turns = zip(*(design.cam.turned(first.cam) for design in designs), strict=True)
     keep(many, cam=stacked(cams), residuals=first.residuals)
     hand_out(many, designs, "span", "sharpest", "steepest", "rates", "reach", "star_shaped")
     for design, turn in zip(designs, turns, strict=True):

@@ -100,3 +100,17 @@ def test_a_design_far_from_a_limit_that_is_all_but_0_is_judged_once(monkeypatch:
 def test_what_is_next_to_a_limit(value: float, limit: float, near: bool) -> None:
     """By 1e-9 of the larger of both, next to 0 of the unit."""
     assert _is_next_to_its_limit(Check("GL1", "c", "pass", "w", value, limit)) is near
+
+
+def test_measured_cams_of_other_profiles_keep_their_own() -> None:
+    """A measured point that varies gives each design a profile of its own, a follower beside it none to share."""
+    base = Base(worked("measured_cam"), "analyze")
+    radius = base.data["profile"]["points"][40][1]
+    asked = [
+        [("profile.points[40][1]", radius + 0.01 * i), ("follower.direction", 90.0 + 0.01 * i)] for i in range(9)
+    ]
+    names = ("min_curvature_radius", "max_pressure_angle", "fit_max")
+    many = [one.values for one in singles(base, asked, names, ())]
+    alone = [single(base, each, names, ()).values for each in asked]
+    assert many == [pytest.approx(each, rel=1e-12) for each in alone]
+    assert len({round(each["fit_max"], 6) for each in many}) == len(asked)
