@@ -106,9 +106,7 @@ def test_measured_cams_of_other_profiles_keep_their_own() -> None:
     """A measured point that varies gives each design a profile of its own, a follower beside it none to share."""
     base = Base(worked("measured_cam"), "analyze")
     radius = base.data["profile"]["points"][40][1]
-    asked = [
-        [("profile.points[40][1]", radius + 0.01 * i), ("follower.direction", 90.0 + 0.01 * i)] for i in range(9)
-    ]
+    asked = [[("profile.points[40][1]", radius + 0.01 * i), ("follower.direction", 90.0 + 0.01 * i)] for i in range(9)]
     names = ("min_curvature_radius", "max_pressure_angle", "fit_max")
     many = [one.values for one in singles(base, asked, names, ())]
     alone = [single(base, each, names, ()).values for each in asked]
