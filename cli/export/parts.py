@@ -1116,8 +1116,9 @@ def geneva_driver(design: Any) -> Part:
     outlines = design.outlines_with(spec.locking_radius)
     pins = [Circle("PINS", spec.pin_radius, cmath.rect(drive.crank, _TURN * k / drive.pins)) for k in range(drive.pins)]
     shaft = [] if spec.shaft_radius is None else [Circle("SHAFT", spec.shaft_radius)]
-    deep = f"; the shaft of radius {spec.shaft_radius:.9g} mm does not go through the disc"
-    opens = spec.shaft_radius is not None and outlines.cut_vertex <= spec.shaft_radius
+    deep = ""
+    if spec.shaft_radius is not None and outlines.cut_vertex <= spec.shaft_radius:
+        deep = f"; the shaft of radius {spec.shaft_radius:.9g} mm does not go through the disc"
     return Part(
         name="driver",
         title="locking disc and pins of the crank",
@@ -1127,7 +1128,7 @@ def geneva_driver(design: Any) -> Part:
         notes=(
             f"pins of radius {spec.pin_radius:.9g} mm at {drive.crank:.9g} mm from the axis",
             "the crank's arm, which carries pin and disc, lies in front of the wheel and is not drawn",
-            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius{deep if opens else ''}",
+            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius{deep}",
             "frame: axis of the crank at the origin, a pin on the x axis",
         ),
         findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),

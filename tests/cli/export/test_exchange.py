@@ -376,6 +376,14 @@ def test_a_part_has_the_holes_that_its_file_names(given: Any, name: str, radii: 
         assert _cylinders(shape) == pytest.approx(sorted([*radii, *outside]), rel=1e-9)
 
 
+@pytest.mark.parametrize("left_out", [("shaft_radius",), ("shaft_radius", "hub_radius"), ("hub_radius",)])
+def test_a_geneva_drive_needs_neither_shaft_nor_hub(left_out: tuple[str, ...]) -> None:
+    made = design({key: value for key, value in worked("geneva_drive").items() if key not in left_out})
+    driver, wheel = (_spline(name, made).part for name in ("driver", "wheel"))
+    assert ("shaft" in " ".join(driver.notes)) == ("shaft_radius" not in left_out)
+    assert any(each.layer == "HUB" for each in wheel.circles) == ("hub_radius" not in left_out)
+
+
 def _cylinders(shape: Any) -> list[float]:
     """Radii of the cylindrical faces; lines of a profile that are arcs are splines."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
