@@ -187,6 +187,13 @@ def test_a_shaft_that_the_cut_out_meets_is_no_bore() -> None:
     assert "⌀28 shaft" in words(crescent)  # between arc and cut-out, far from the axis
 
 
+def test_a_disc_is_drawn_without_a_shaft() -> None:
+    """`shaft_radius` is an optional key: the cut-out is the same, and no shaft is named."""
+    shown = words(part_drawing.drawn(whole("geneva_drive", compare=None, shaft_radius=None))["driver"]())
+    assert any("11.2538661 mm from" in text for text in shown)
+    assert not any("shaft" in text for text in shown)
+
+
 def test_a_cycloidal_disc_has_lobes_holes_and_its_table() -> None:
     """Ground for pins of 5.01 mm on a circle of 59.98 mm; the profile by the usual equations of x and y."""
     figure = part_drawing.drawn(whole("cycloidal_reducer"))["disc"]()
