@@ -198,6 +198,7 @@ def errors(design: GenevaDrive, _mechanism: Mechanism) -> Movable:
 
 
 _INSTANTS, _PLACES = 721, 33
+_EDGE_INSTANTS = 20001
 _INSIDE = 1e-9
 """Share of the locking radius by which a point of the wheel has to lie inside the disc to count."""
 
@@ -365,15 +366,22 @@ class Outlines:
 
     @property
     def overlap(self) -> float:
-        """How far a lip beside a slot reaches, on its way, into the disc at the edges of its arc [mm]; 0: not at all.
+        """How far lips beside a slot and edges of the disc reach into each other on their way [mm]; 0: not at all.
 
-        The lips of an internal wheel pass far from the edges.
+        Of an external drive the lips are within the sector of the arc, of an internal one the edge is in the wheel:
+        beyond the circle through the corners, out of its slots and of its locking arcs.
         """
-        if self.drive.sign < 0.0:
-            return 0.0
+        drive = self.drive
+        if drive.sign < 0.0:
+            f = np.linspace(-drive.half, drive.half, _EDGE_INSTANTS)
+            seen = (drive.distance + self.edge * units(f)) * units(-drive.rates(f, 0)[0])
+            seen = np.abs(seen) * units(np.abs(np.angle(seen * units(-_pitches(seen, drive.step)))))
+            from_arc = np.abs(seen - cmath.rect(drive.distance, 0.5 * drive.step)) - self.hollow
+            depth = np.minimum(np.minimum(np.abs(seen) - self.tip, seen.imag - self.slot), from_arc)
+            return float(np.max(depth - _INSIDE * self.locking, initial=0.0))
         near = self._passing
         into = self.locking * (1.0 - _INSIDE) - np.abs(near)
-        beyond = np.abs(near) * (np.abs(np.angle(near)) - self.drive.half)
+        beyond = np.abs(near) * (np.abs(np.angle(near)) - drive.half)
         return float(np.max(np.minimum(into, beyond), initial=0.0))
 
     @cached_property
@@ -390,6 +398,11 @@ class Outlines:
 def _seen(one: float, other: float, opposite: float) -> float:
     """Angle of a triangle between two sides [rad]."""
     return math.acos((one * one + other * other - opposite * opposite) / (2.0 * one * other))
+
+
+def _pitches(seen: Points, pitch: float) -> Reals:
+    """Direction of the slot nearest to each point [rad]."""
+    return np.asarray(pitch * np.round(np.angle(seen) / pitch))
 
 
 def _turned(curve: Callable[[Reals], Points], unit: complex, parameter: Reals) -> Points:

@@ -16,6 +16,7 @@ import pytest
 from factory import design
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.path import Path
 
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.machines.geneva.design import Geneva, Outlines
@@ -172,10 +173,15 @@ def test_refusals() -> None:
 
 
 @pytest.mark.quick(3)
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize(("slots", "share"), [(3, 0.8), (4, 0.95), (6, 0.5), (12, 0.85)])
+@pytest.mark.parametrize(
+    ("sign", "slots", "share"),
+    [(sign, *each) for sign in (1.0, -1.0) for each in ((3, 0.8), (4, 0.95), (6, 0.7), (12, 0.85))] + [(1.0, 6, 0.5)],
+)
 def test_wheel_and_driver_turn_without_touching(sign: float, slots: int, share: float) -> None:
-    """The outlines join and, turned through a revolution, the wheel's points stay out of the disc but for its arc."""
+    """The outlines join and, turned through a revolution, the wheel's points stay out of the disc but for its arc.
+
+    With share 0.5 the edges of the internal disc are in the wheel, and what the wheel leaves of the disc is nothing.
+    """
     drive = Geneva(slots, 1, 100.0, sign)
     pin = 0.1 * drive.crank
     radius = share * (drive.crank - pin)
@@ -212,6 +218,33 @@ def test_a_disc_that_does_not_hold_the_wheel() -> None:
     ]
     assert len(hit) == 1
     assert "edge of the locking disc" in hit[0].what
+
+
+@pytest.mark.parametrize("slots", [3, 4, 6, 9])
+@pytest.mark.parametrize("clearance", [0.0, 0.3])
+def test_the_edges_of_a_small_disc_of_an_internal_drive_hit_the_wheel(slots: int, clearance: float) -> None:
+    """The edges are turned through the wheel's own outline: the first that is free of it is the first that passes."""
+
+    def hits(radius: float) -> tuple[bool, bool]:
+        keys = {"slots": slots, "pin_radius": 4.0, "locking_radius": radius}
+        found = design(GIVEN, type="internal", locking_clearance=clearance, slot_clearance=2.0 * clearance, **keys)
+        outlines, drive = found.outlines_with(radius), found.drive
+        half = np.concatenate([each.curve(np.linspace(each.low, each.high, 401)) for each in outlines.wheel_half()])
+        sector = np.concatenate([[0.0], np.conj(half[::-1]), half])  # chords are within 1e-3 mm of the arcs
+        f = drive.half * np.linspace(-0.99999, 0.99999, 4001)  # not where the sectors of two slots meet
+        pins = drive.distance + drive.crank * np.exp(1j * f)
+        edges = drive.distance + (radius - 2e-3) * np.exp(1j * (drive.half + f))
+        seen = edges * np.exp(-1j * np.angle(pins))
+        angle = np.angle(seen) % drive.step
+        folded = np.abs(seen) * np.exp(1j * np.minimum(angle, drive.step - angle))
+        cavity = Path(np.column_stack([sector.real, sector.imag]))
+        free = cavity.contains_points(np.column_stack([folded.real, folded.imag]))
+        return not free.all(), any(each.status == "fail" for each in found.check("locking"))
+
+    crank = 120.0 * math.sin(math.pi / slots)
+    judged = [hits(share * crank) for share in np.linspace(0.4, 0.85, 16)]
+    assert {each[0] for each in judged} == {True, False}
+    assert [each[0] for each in judged] == [each[1] for each in judged]
 
 
 @pytest.mark.parametrize("kind", ["external", "internal"])
