@@ -889,7 +889,9 @@ _HYPOCYCLOID = {
     "dwell_ripple": Term("", "mm", "range of the slider's position in the dwell", "own derivation"),
     "dwell_deviation_min": Term("", "mm", "minimum deviation from the position in mid-dwell, inwards positive"),
     "dwell_deviation_max": Term("", "mm", "maximum deviation from the position in mid-dwell, inwards positive"),
-    "tolerance_carrier_angle": Term("", "deg", "widest carrier angle about mid-dwell with the slider within +- the tolerance"),
+    "tolerance_carrier_angle": Term(
+        "", "deg", "widest carrier angle about mid-dwell with the slider within +- the tolerance"
+    ),
     "stroke": Term("S", "mm", "stroke of the slider"),
     "ripple_share": Term("", "1", "ripple over stroke"),
 }

@@ -50,7 +50,9 @@ class OnSlide(Translating):
     """A roller or an edge on a slide."""
 
     offset: SignedLength | Literal["best"] = Field(
-        0.0, description="distance of the line of travel from the cam axis on its right; best: of the smallest cam"
+        0.0,
+        description="distance of the line of travel from the cam axis on its right; "
+        "best: of the smallest cam for the pressure angle",
     )
 
 
