@@ -156,6 +156,7 @@ def _length(forces: Reals) -> Reals:
 
 
 _TEETH = ("mesh", "rack")
+_RIGID = 1e-9
 
 
 @dataclass(frozen=True)
@@ -213,7 +214,7 @@ class Coefficients:
         """The friction of every joint that has some; of a mesh two, of which one is 0: each gear as the driven one."""
         for each in mechanism.connections:
             share = self.of(each)
-            if not share:
+            if not share or (isinstance(each, Pin) and _stands(mechanism, each)):
                 continue
             direction = np.sign(speed) * sense_of(relative(mechanism, each), relative(mechanism, each, 2))
             if isinstance(each, Guide):
@@ -247,6 +248,16 @@ class Coefficients:
         """Relative speed of a connection, per input angle, whose sign its friction has."""
         connection = next(each for each in mechanism.connections if each.name == name)
         return relative(mechanism, connection)
+
+
+def _stands(mechanism: Mechanism, pin: Pin) -> bool:
+    """Whether a pin holds two links that do not turn against each other, as those of a triangle of bars.
+
+    At a reversal they turn just after it: the second derivative tells.
+    """
+    own = [[rates(mechanism, FRAME, link, order) for link in (pin.first, pin.second)] for order in (1, 2)]
+    apart = np.abs([relative(mechanism, pin, order) for order in (1, 2)])
+    return bool(np.max(apart) <= _RIGID * np.max(np.abs(own)))
 
 
 def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Reals:

@@ -131,6 +131,30 @@ def test_a_slider_crank_has_the_loads_of_its_kind() -> None:
     assert across == pytest.approx(np.asarray(two.data[two.columns.index("guide_x")]), abs=1e-9)
 
 
+def test_the_pins_of_a_triangle_of_bars_have_no_friction() -> None:
+    """Nothing turns in them; the sense of their friction was that of the rounding errors, another in each row."""
+    rigid = {"E": 0.2, "T": 0.2}
+    keys: dict[str, Any] = {
+        "frame": {"A": [0, 0], "D": [110, 0]},
+        "links": {"crank": ["A", "B", 40], "coupler": {"B": [0, 0], "C": [100, 0], "E": [50, 40]},
+                  "rocker": ["D", "C", 90], "b1": ["B", "T", 60], "b2": ["E", "T", 50]},
+        "drive": {"link": "crank"},
+        "start": {"crank": 0, "coupler": 60, "rocker": 105, "b1": 80, "b2": 150},
+        "outputs": ["rocker"],
+    }  # fmt: skip
+    masses = {"coupler": {"mass": 2, "center": [50, 0]}, "b2": {"mass": 1, "center": [40, 10]}}
+    with_, without = (
+        design(
+            "loads", kind="planar-mechanism", name="braced", **keys,
+            loads={"speed": SPEED, "links": masses, "friction": {"pin_radius": 10, "joints": joints}},
+        ).table("joints", samples=24)
+        for joints in (rigid | {"C": 0.1}, {"C": 0.1})
+    )  # fmt: skip
+    assert with_.columns == without.columns
+    for one, other in zip(with_.data, without.data, strict=True):
+        assert np.asarray(one) == pytest.approx(np.asarray(other), rel=1e-9, abs=1e-9)
+
+
 @pytest.mark.slow
 def test_a_pass_over_a_range_takes_the_loads_where_they_are() -> None:
     """The same mechanism over its period and over a range of it: rows at equal inputs are equal."""
