@@ -372,7 +372,8 @@ class CycloidalReducer(RealSpeed, Design):
         pins, hole = self.spec.output_pins, self.output_hole_radius
         if pins is None or hole is None:
             return
-        root = self.spec.pin_circle_radius - self.spec.eccentricity - self.spec.pin_radius
+        ground = self.disc.ground(*self.changes)
+        root = ground.circle - ground.eccentricity - ground.pin
         webs = [
             ("between two holes for output pins", 2.0 * (pins.circle_radius * math.sin(math.pi / pins.count) - hole)),
             ("between the holes for output pins and the roots of the lobes", root - pins.circle_radius - hole),

@@ -186,6 +186,16 @@ def test_checks_on_both_sides_of_their_limits() -> None:
     assert design(GIVEN, modification={"offset": 0.01, "pin_circle": 0.02}).backlash is None
 
 
+def test_the_web_to_the_lobes_is_that_of_the_ground_disc() -> None:
+    """Against the nearest point of the profile that is ground for thicker pins on a smaller circle."""
+    found = design(GIVEN, modification={"offset": 0.05, "pin_circle": -0.04})
+    profile = found.table("profile")
+    nearest = np.hypot(profile["x"], profile["y"]).min()  # the first row is a root
+    hole = GIVEN["output_pins"]["circle_radius"] + found.output_hole_radius
+    (web,) = [each.value for each in found.check("shaft-clearance") if "roots of the lobes" in each.what]
+    assert web == pytest.approx(nearest - hole, rel=1e-9, abs=0.0)
+
+
 @pytest.mark.parametrize("away", [1e-3, 1e-9, 1e-14])
 def test_lobes_that_all_but_loop(away: float) -> None:
     """K next to 1: Q and the curvature's numerator lost all digits, and the lever of the pin at 0 was 0/0."""
