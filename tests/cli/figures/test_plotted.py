@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pytest
 from factory import design, worked
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sheets import curve, labels, panel, sheet, tagged, words
 from sweeps import mostly_slow
 
@@ -186,6 +188,18 @@ def test_an_undercut_cam_is_drawn_not_for_manufacture() -> None:
     texts = words(true_size.workshop_drawing(made, 0))
     assert not any(text.startswith(f"R {cam_sheets.discs(made)[0].max_radius:.5g}") for text in texts)
     assert any("undercut" in text for text in texts)
+
+
+def test_sizes_of_a_cam_interrupt_their_lines_and_are_as_wide_as_planned() -> None:
+    """Dimension lines ran through the numbers, whose decimal points read as colons; words reached over an edge."""
+    figure = true_size.workshop_drawing(design("lift_cam"), 0)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    sizes = [each for each in figure.axes[0].texts if re.match(r"[R\u2300]\d", each.get_text())]
+    assert [each.get_text()[0] for each in sizes] == ["R", "R", "\u2300", "\u2300"]
+    assert all(each.get_bbox_patch().get_facecolor()[:3] == (1.0, 1.0, 1.0) for each in sizes)
+    (note,) = [each for each in sizes if "over bore" in each.get_text()]
+    wide = note.get_window_extent(renderer).width / figure.dpi * 25.4
+    assert wide <= true_size._LETTER * max(map(len, note.get_text().split("\n")))
 
 
 @pytest.mark.parametrize("sheet_of", ["workshop", "true to size"])

@@ -15,7 +15,6 @@ import numpy as np
 
 from gearlink.cli.export.contour import Circle, Contour, Dimension, Part
 from gearlink.cli.export.sizes import size
-from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.sheets import cam_sheets, paper
 from gearlink.core.numerics.extremes import extremes_over
 
@@ -185,9 +184,7 @@ def _along(view: View, each: Dimension) -> paper.Box:
         for arm in (2.0, 2j):
             paper.line(view.axes, [start - arm, start + arm], 0.18)
     paper.arrow(view.axes, start, end, "-|>" if each.end else "<|-|>")
-    # A box, for an outline of letters leaves the line to be seen between words.
-    box = {"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"}
-    paper.text(view.axes, _text_of(view, each), each.words, ha="center", bbox=box)
+    paper.value(view.axes, _text_of(view, each), each.words, ha="center")
     return _box_of(view, each)
 
 
@@ -207,7 +204,7 @@ def _in_row(view: View, each: Dimension) -> tuple[paper.Box, paper.Box]:
     else:
         paper.arrow(view.axes, ends[0], ends[1], "<|-|>")
     middle = 0.5 * (ends[0] + ends[1]) + (1.5 + 0.5 * long if upright else 1.8j)
-    paper.text(view.axes, middle, each.words, ha="center", path_effects=style.outlined())
+    paper.value(view.axes, middle, each.words, ha="center")
     line = complex(abs(between.real) + 2.0, abs(between.imag) + 2.0)
     return _box(middle, complex(long, 3.2)), _box(0.5 * (ends[0] + ends[1]), line)
 
@@ -240,7 +237,7 @@ def _diameter(
     unit = cmath.rect(1.0, best.way)
     paper.arrow(view.axes, best.foot, view.at(best.center) + view.scale * group[0].radius * unit)
     align, aside = ("left", 0.8) if unit.real >= 0.0 else ("right", -0.8)
-    paper.text(view.axes, best.foot + aside, words, ha=align, path_effects=style.outlined())
+    paper.value(view.axes, best.foot + aside, words, ha=align)
     return best.way, best.box
 
 

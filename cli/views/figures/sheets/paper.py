@@ -135,6 +135,11 @@ def text(axes: Axes, at: complex, words: str, size: float = TEXT, **look: Any) -
     axes.text(at.real, at.imag, words.replace("$", r"\$"), fontsize=size, **{"va": "center", "zorder": 8, **look})
 
 
+def value(axes: Axes, at: complex, words: str, **look: Any) -> None:
+    """A size or a label: lines are interrupted behind it, so that a decimal point does not read as a colon."""
+    text(axes, at, words, **{"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.9}, **look})
+
+
 def arrow(axes: Axes, start: complex, end: complex, style_: str = "-|>") -> None:
     """A thin arrow, of a dimension or a sense of turning."""
     shape = {"arrowstyle": style_, "color": style.BLACK, "linewidth": 0.7, "shrinkA": 0, "shrinkB": 0,

@@ -255,7 +255,7 @@ def _side(view: dimensions.View, left: complex) -> None:
     paper.text(axes, above + 0.5 * wide + 2.5j, f"{part.width:g}", ha="center")
     paper.arrow(axes, beside - 1j * tall, beside + 1j * tall, "<|-|>")
     words = f"⌀{2.0 * outer:.3f}"
-    paper.text(axes, beside + 1.2 + 0.5j * tall, words, rotation=90, ha="left", path_effects=style.outlined())
+    paper.value(axes, beside + 1.2 + 0.5j * tall, words, rotation=90, ha="left")
 
 
 def _table(made: Figure, page: paper.Page, part: Part) -> None:

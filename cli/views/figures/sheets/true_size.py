@@ -312,17 +312,17 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
         end = axis + scale * radius * way
         paper.arrow(axes, axis, end)
         at = axis + 0.66 * scale * radius * way
-        paper.text(axes, at, f"R{radius:.3f}", ha="center", path_effects=style.outlined())
+        paper.value(axes, at, f"R{radius:.3f}", ha="center")
     roller = complex(cam.points(np.zeros(1))[0][0])
     at = axis + scale * roller
     if cam.roller_radius:
-        paper.text(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center", path_effects=style.outlined())
+        paper.value(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center")
     if shaft > 0.0:
         taken = [complex(profile[k]) for k, _ in ends] + [roller]
         _bore_note(axes, cam, axis, scale, shaft, [each / abs(each) for each in taken])
 
 
-_LETTER, _LINE = 1.05, 3.4
+_LETTER, _LINE = 1.36, 3.4
 """Width of a letter in the mean, height of a line [mm of paper]."""
 
 
@@ -350,7 +350,7 @@ def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: flo
     foot = max(places, key=lambda each: each[:3])[3]
     way = (foot - axis) / abs(foot - axis)
     paper.line(axes, [axis + scale * shaft * way, foot], 0.18)
-    paper.text(axes, foot, words, ha="center", va="top" if way.imag < 0.0 else "bottom", path_effects=style.outlined())
+    paper.value(axes, foot, words, ha="center", va="top" if way.imag < 0.0 else "bottom")
 
 
 class _Words(NamedTuple):
