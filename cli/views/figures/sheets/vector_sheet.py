@@ -95,15 +95,16 @@ def _largest(motion: Any, q: Reals, order: int) -> int:
 
 
 def default_places(design: Any) -> list[float]:
-    """Inputs of the greatest velocity and acceleration of the first output [deg, mm]: a thousand, then a hundred
-    beside the best."""
+    """Inputs of the greatest velocity and acceleration of the first output [deg, mm]: a thousand, then twice a
+    hundred beside the best."""
     motion = design.moving
-    q = np.linspace(motion.input.start, motion.input.end, 1001)
     found = []
     for order in (1, 2):
-        k = _largest(motion, q, order)
-        near = np.linspace(q[max(k - 1, 0)], q[min(k + 1, 1000)], 101)
-        found.append(float(near[_largest(motion, near, order)]))
+        q = np.linspace(motion.input.start, motion.input.end, 1001)
+        for _ in range(2):
+            k = _largest(motion, q, order)
+            q = np.linspace(q[max(k - 1, 0)], q[min(k + 1, len(q) - 1)], 101)
+        found.append(float(q[_largest(motion, q, order)]))
     shown_ = [math.degrees(each) if motion.input.unit == "rad" else each for each in found]
     return [round(each, 4) for each in dict.fromkeys(shown_)]
 
