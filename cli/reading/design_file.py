@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import math
 import os
@@ -53,7 +54,7 @@ def load(
         message = "a named pipe is not read\ngive - and the pipe as standard input"
         raise DesignFileError([Diagnostic("GL101", message, name)])
     if target := astray(name):
-        message = f"a link to {target}, which is not a design file ({', '.join(ENDINGS)})"
+        message = f"a link to {target}, which is not a design file ({', '.join(ENDINGS)})\nname the file itself"
         raise DesignFileError([Diagnostic("GL101", message, name)])
     return parse(read_at_most(source, MAX_BYTES + 1, stdin), name, overrides=overrides)
 
@@ -547,13 +548,16 @@ def _unreadable(name: str, error: Exception) -> Diagnostic:
         return Diagnostic("GL101", "this is a folder", name, help="`gearlink batch` takes folders")
     if isinstance(error, PermissionError):
         return Diagnostic("GL101", "no permission to read it", name)
+    if isinstance(error, OSError) and error.errno == errno.ELOOP:
+        return Diagnostic("GL101", "a link that leads back to itself", name, help="delete it")
     reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     return Diagnostic("GL101", f"cannot be read: {reason}", name)
 
 
 def _missing(name: str) -> Diagnostic:
     if os.path.islink(name):
-        return Diagnostic("GL101", f"a link to {os.readlink(name)}, which does not exist", name)
+        message = f"a link to {os.readlink(name)}, which does not exist"
+        return Diagnostic("GL101", message, name, help="restore that file, or delete the link")
     return Diagnostic("GL101", "no such file", name, help=nearest_file(name))
 
 

@@ -265,7 +265,8 @@ class _Composer:
 
     def _open(self, data: Any, event: Any, at: int) -> None:
         if self._awaits_key():
-            raise _fatal(self.source, "GL103", "a key must be one word, not a list or a section", at)
+            help = "take the braces or brackets away, or put text with them in quotes"
+            raise _fatal(self.source, "GL103", "a key must be one word, not a list or a section", at, help=help)
         if event.anchor is not None or event.tag is not None:
             self._no_tag(event, at)
             if event.anchor is not None:

@@ -1,5 +1,7 @@
 """What the spec models share: strictness, and number types that carry their unit into the JSON Schema."""
 
+import re
+import unicodedata
 from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -7,8 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
 
+from gearlink.core.base.errors import named
+
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
+
+
+_PLAIN = "[A-Za-z][A-Za-z0-9_]*"
 
 
 class Spec(BaseModel):
@@ -46,6 +53,22 @@ def refused(message: str, key: str = "", code: str = "GL111") -> PydanticCustomE
         code : str - of the finding
     """
     return PydanticCustomError(code, "{message}", {"message": message, "key": key})
+
+
+def plain_name(name: str, key: str = "") -> str:
+    """The name of a part: it begins with a letter and has only ASCII letters, digits and _, so that relations, options
+    and files can contain it.
+
+    Raises
+        PydanticCustomError - for any other name, with the nearest one that is valid
+    """
+    if re.fullmatch(_PLAIN, name):
+        return name
+    letters = unicodedata.normalize("NFKD", name.replace("ß", "ss")).encode("ascii", "ignore").decode()
+    near = re.sub("[^A-Za-z0-9]+", "_", letters).strip("_")
+    fix = next(each for each in (near, f"n{near}") if re.fullmatch(_PLAIN, each))
+    rule = "a name begins with a letter and has only letters a to z, digits and _"
+    raise refused(f"{named(name)} is not a valid name: {rule}\nwrite {fix}", key, "GL108")
 
 
 class Entries:

@@ -1,7 +1,6 @@
 """The design file of a machine: members, events, relations, main shaft."""
 
 import json
-import re
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
@@ -18,6 +17,7 @@ from gearlink.core.base.spec import (
     Spec,
     Speed,
     TolerancedSpec,
+    plain_name,
     refused,
     unit,
 )
@@ -31,19 +31,11 @@ if TYPE_CHECKING:
 
     from gearlink.core.base.kind import Kind
 
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 AboveZero = Annotated[float, Field(gt=0, le=1e12)]
 Inertia = Annotated[float, unit("kg m^2", gt=0, le=1e12)]
 Stiffness = Annotated[float, unit("N m/rad", gt=0, le=1e15)]
 Turns = Annotated[float, unit("1", ge=-1e6, le=1e6)]
 MachineAngle = Annotated[float, unit("deg", ge=-36_000, le=36_000)]
-
-
-def _require_name(name: str, key: str) -> None:
-    if not _NAME.fullmatch(name):
-        raise refused(
-            f"{named(name)} is not a valid name: letters, digits and _, beginning with a letter", key, "GL108"
-        )
 
 
 def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
@@ -301,7 +293,7 @@ class MachineSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _drivers(self) -> Self:
         for name, member in self.members.items():
-            _require_name(name, f"members.{name}")
+            plain_name(name, f"members.{name}")
             if member.input is None:
                 continue
             driver = member.input.partition(".")[0]
@@ -327,7 +319,7 @@ class MachineSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _named(self) -> Self:
         for name, event in self.events.items():
-            _require_name(name, f"events.{name}")
+            plain_name(name, f"events.{name}")
             if name in self.members:
                 raise refused(f"{name} is a member: give the event another name", f"events.{name}")
             if event.of.partition(".")[0] not in self.members:

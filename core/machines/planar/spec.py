@@ -1,6 +1,5 @@
 """The design file of a planar mechanism: its links, what joins them, what drives it."""
 
-import re
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
@@ -16,6 +15,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     TolerancedSpec,
+    plain_name,
     refused,
     unit,
 )
@@ -25,14 +25,7 @@ FRAME = "frame"
 MOST_LINKS = 40
 
 
-def _is_name(name: str) -> str:
-    if re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
-        return name
-    message = f"{name!r} is not a valid name: a name begins with a letter and has only letters, digits and _"
-    raise refused(message, code="GL108")
-
-
-Name = Annotated[str, AfterValidator(_is_name)]
+Name = Annotated[str, AfterValidator(plain_name)]
 Vector = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[100, 0]")]
 Direction = Annotated[float, unit("deg", ge=-1e6, le=1e6)]
 Place = Annotated[float, unit("deg", ge=-1e6, le=1e6)]

@@ -179,6 +179,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
     }
     extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "poles", "drawing", "factors")
     ways = WAYS
+    in_ring = ("the idler", "the ring gear")
 
     def __init__(self, spec: Any) -> None:
         super().__init__(spec)

@@ -96,6 +96,20 @@ def test_a_link_that_leads_nowhere(gearlink: Any, here: Path) -> None:
         assert "did you mean" not in ended.out + ended.err
 
 
+def test_what_is_wrong_with_a_link_is_said_with_a_way_out(here: Path) -> None:
+    """The system's own words, "Too many levels of symbolic links", and no remedy."""
+    os.symlink("b.yaml", "files/a_link.yaml")
+    os.symlink("a_link.yaml", "files/b.yaml")
+    os.symlink("gone.yaml", "files/c.yaml")
+    found = {}
+    for name in ("b", "c"):
+        with pytest.raises(DesignFileError) as wrong:
+            load(f"files/{name}.yaml")
+        found[name] = wrong.value.diagnostics[0]
+    assert found["b"].lines == ("a link that leads back to itself", "help: delete it")
+    assert found["c"].help == "restore that file, or delete the link"
+
+
 def test_a_link_to_what_is_no_design_is_not_read(gearlink: Any, here: Path) -> None:
     """A stranger's link would show lines of any file of this machine in the log."""
     (here / "secret.txt").write_text("token: hunter2\n")

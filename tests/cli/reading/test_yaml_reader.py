@@ -323,6 +323,12 @@ def test_a_parser_s_own_limit_of_nesting_is_ours(context: str, monkeypatch: pyte
     assert (wrong.line, wrong.column) == (2, 1004)
 
 
+def test_a_template_that_nobody_filled_in_says_what_to_do() -> None:
+    (wrong,) = errors("module: {{ m }}\n")
+    assert wrong.message == "a key must be one word, not a list or a section"
+    assert wrong.help == "take the braces or brackets away, or put text with them in quotes"
+
+
 def test_node_cap_is_exact() -> None:
     data("a: [" + "1," * (MAX_NODES - 2) + "]\n")
     assert first("a: [" + "1," * (MAX_NODES - 1) + "]\n")[0] == "GL110"

@@ -118,3 +118,13 @@ def test_a_start_is_no_size_that_scatters() -> None:
     code, _, words = refusal({**WATT, "tolerance": {"sources": {"start.crank": {"plus_minus": 1}}}})
     assert code == "GL170"
     assert "not a size of a part" in words
+
+
+@pytest.mark.parametrize(
+    ("name", "valid"), [("upper bar", "upper_bar"), ("2te Stange", "n2te_Stange"), ("Fuß-2", "Fuss_2"), ("连杆", "n")]
+)
+def test_a_name_that_is_not_valid_says_one_that_is(name: str, valid: str) -> None:
+    """It was refused without a word on what to write."""
+    code, _, text = refusal(changed(WATT, "links", {**WATT["links"], name: ["A", "B", 20.0]}))
+    assert (code, text.splitlines()[1]) == ("GL108", f"write {valid}")
+    assert "letters a to z, digits and _" in text

@@ -389,3 +389,14 @@ def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
     assert axis(ring, "analyze", ["links.crank"], ["frame_length"], []) is None
     external = made("analyze", dwell=None, gears__output=118, links={"crank": 22, "frame": 110}).spec
     assert axis(external, "analyze", ["links.crank"], ["frame_length"], []) is not None
+
+
+def test_findings_in_a_ring_call_the_idler_by_its_key() -> None:
+    """A chosen idler of 17 teeth was "the planet", which no key of the file has."""
+    keys = {"gears": {"module": 1.25, "crank": 28, "output": -96}, "dwell": {"window": 90, "tolerance": 0.3}}
+    made = design({"kind": "three-gear-four-bar", **keys}, command="synth dwell")
+    failed = [check for check in made.check("involute-interference") if check.status == "fail"]
+    assert [check.fix for check in failed] == ["use more teeth on the idler, or a larger pressure angle"]
+    assert not any(
+        "planet" in check.message for name in made.outline("synth dwell").checks for check in made.check(name)
+    )

@@ -59,7 +59,7 @@ RING_TIPS = FILLET.checks[1]
 MESH_CHECKS = (*GEAR_CHECKS, TIP_FOULING.name, RING_TIPS)
 _WITHOUT_INVOLUTES = ("center_distance", "reference_radius", "base_radius", "tip_radius", "root_radius")
 """What a ring whose tips lie inside its base circle still has."""
-_OF_PLANET: Roles = ("the planet", "the ring gear")
+PLANET: Roles = ("the planet", "the ring gear")
 
 
 def mesh_quantity(mesh: GearPair, name: str) -> Any:
@@ -80,10 +80,18 @@ def _interference(mesh: GearPair) -> InternalInterference:
 
 
 def mesh_checks(
-    name: str, mesh: GearPair, limits: Any, label: str = "", shifts: bool = False, roles: Roles = GEARS
+    name: str,
+    mesh: GearPair,
+    limits: Any,
+    label: str = "",
+    shifts: bool = False,
+    roles: Roles = GEARS,
+    in_ring: Roles = PLANET,
 ) -> list[Check]:
     """The findings of one of MESH_CHECKS on standard teeth in mesh, which go by a label where a design has several.
 
+    Parameters
+        roles, in_ring : (str, str) - what messages call the two gears, in_ring where the second is a ring
     Source
         ISO 21771 for the quantities
     """
@@ -92,22 +100,22 @@ def mesh_checks(
             [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts, roles))
         )
     before = f"{label.replace('_', '-')} mesh: " if label else ""
-    return [check._replace(what=before + check.what) for check in _in_ring(name, mesh, limits)]
+    return [check._replace(what=before + check.what) for check in _in_ring(name, mesh, limits, in_ring)]
 
 
-def _in_ring(name: str, mesh: GearPair, limits: Any) -> Iterator[Check]:
+def _in_ring(name: str, mesh: GearPair, limits: Any, roles: Roles) -> Iterator[Check]:
     """The findings on a planet in its ring, whose root clearance and tooth form are the standard's."""
     involutes, internal = mesh.ring_tip_margin >= 0.0, _interference(mesh)
     if name == TIP_FOULING.name and (involutes or internal.tip_circles_apart < 0.0):
-        yield from fouling_check(internal, _OF_PLANET)
+        yield from fouling_check(internal, roles)
     elif name == INTERFERENCE.name and not involutes:
         yield _without_involutes(mesh)
     elif name == INTERFERENCE.name:  # the planet's tips do not come near the ring's base circle
-        yield list(gear_check(name, mesh, limits, roles=_OF_PLANET))[1]
+        yield list(gear_check(name, mesh, limits, roles=roles))[1]
     elif name == UNDERCUT.name or (name in (CONTACT_RATIO.name, TIP_THICKNESS.name) and involutes):
-        yield from gear_check(name, mesh, limits, roles=_OF_PLANET)
+        yield from gear_check(name, mesh, limits, roles=roles)
     elif name == RING_TIPS and involutes and internal.involute_margin > 0.0:
-        yield from _ring_tips_on_fillet(mesh)
+        yield from _ring_tips_on_fillet(mesh, roles[0])
 
 
 def _without_involutes(mesh: GearPair) -> Check:
@@ -117,7 +125,7 @@ def _without_involutes(mesh: GearPair) -> Check:
     return INTERFERENCE.check("fail", what, margin, 0.0, "mm", overlap=what, aside="no involute there", fix=fix)
 
 
-def _ring_tips_on_fillet(mesh: GearPair) -> Iterator[Check]:
+def _ring_tips_on_fillet(mesh: GearPair, planet: str) -> Iterator[Check]:
     """GL207: tips of full height of a ring, which is hollow, reach deeper into a root than those of the tool's rack.
 
     Notes
@@ -131,7 +139,7 @@ def _ring_tips_on_fillet(mesh: GearPair) -> Iterator[Check]:
     margin, limit = used - form, -FILLET_NOISE * mesh.module
     yield FILLET.check(
         "warn" if margin < limit else "pass",
-        "start of the ring gear's contact at the root of the planet",
+        f"start of the ring gear's contact at the root of {planet}",
         margin,
         limit,
         "mm",
@@ -201,6 +209,8 @@ class Meshed(GearQuantities, Design):
     derived = DERIVED | {"output_play"}
     own_quantities: ClassVar[frozenset[str]] = frozenset()
     """Quantities of a mesh that the design gives itself under their plain names."""
+    in_ring: ClassVar[Roles] = PLANET
+    """What findings call a gear within a ring, and the ring."""
 
     # What a machine says of its gears
 
@@ -477,7 +487,7 @@ class Meshed(GearQuantities, Design):
             with in_section("gears"):
                 return pair_check(name, data, limits, mesh=mesh, shifts=shifts)
         with in_section("gears"):
-            return mesh_checks(name, pair, limits, mesh, shifts, self._roles(mesh))
+            return mesh_checks(name, pair, limits, mesh, shifts, self._roles(mesh), self.in_ring)
 
     def _judged(self, name: str) -> bool:
         """Whether the file gives what a check of the drawing or of the strength needs."""
