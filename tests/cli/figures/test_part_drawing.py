@@ -7,6 +7,7 @@ an outline differs from its circle by the error of its chords, 0.01 mm of paper,
 from __future__ import annotations
 
 import math
+import re
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -240,3 +241,23 @@ def test_words_beside_a_circle_keep_to_the_view() -> None:
     left, low, right, high = vars(figure)["view"]
     assert left <= box.x0 <= box.x1 <= right
     assert low <= box.y0 <= box.y1 <= high
+
+
+def test_a_small_part_is_drawn_large_and_its_notes_have_short_numbers() -> None:
+    """10:1 was the largest scale, at which sizes covered a pinion of 1.3 mm; its notes had nine digits."""
+    keys = {"module": 0.12, "teeth": [14, 64], "center_distance": None, "profile_shift": [0.2, 0], "face_width": 0.4}
+    figure = part_drawing.drawn(whole("gear_pair", **keys))["gear1"]()
+    assert scale_of(figure) == 50.0
+    notes = [text for text in words(figure) if "involute from radius" in text]
+    assert len(notes) == 1
+    assert not re.search(r"\d\.\d{5}", notes[0])
+
+
+def test_many_notes_do_not_cover_each_other() -> None:
+    """Letters are lower than the step from row to row, however many rows there are."""
+    page = paper.PAGES[0]
+    _, axes = paper.sheet(page)
+    paper.notes(axes, page, [f"note {k}" for k in range(12)])
+    rows = [text for text in axes.texts if text.get_text().startswith("note")]
+    steps = -np.diff([text.get_position()[1] for text in rows])
+    assert all(text.get_fontsize() * 25.4 / 72.0 < min(steps) for text in rows)

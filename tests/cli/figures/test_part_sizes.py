@@ -206,7 +206,7 @@ def test_a_cycloidal_disc_has_lobes_holes_and_its_table() -> None:
     assert np.count_nonzero((size > np.roll(size, 1)) & (size >= np.roll(size, -1))) == count - 1
     for k in (0, 7, 15, 30):
         tau = math.pi / (count - 1) * k / 30
-        row = texts.index(f"{math.degrees(tau):.6g}" if k else "0")
+        row = texts.index(f"{math.degrees(tau):.4f}")  # every number of the column with the same digits
         lean = math.atan2(math.sin((1 - count) * tau), circle / (e * count) - math.cos((1 - count) * tau))
         x = circle * math.cos(tau) - pin * math.cos(tau + lean) - e * math.cos(count * tau)
         y = circle * math.sin(tau) - pin * math.sin(tau + lean) - e * math.sin(count * tau)

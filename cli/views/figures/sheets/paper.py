@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+SCALES = (50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """Of ISO 5455, and so much of the part on the paper."""
 _FACE: dict[str, Any] = {"color": style.BLACK, "solid_capstyle": "butt"}
 _FRAME_EDGE, _MARGIN = 10.0, 20.0
@@ -152,8 +152,9 @@ def notes(axes: Axes, page: Page, lines: Iterable[str]) -> None:
     wide, box = int((page.notes.right - page.notes.left) / 1.3), page.notes
     rows = [row for words in lines for row in wrap(words, wide)]
     step = min(4.2, (box.high - box.low - 2.0) / len(rows))
+    size = min(6.2, 0.85 * step * 72.0 / 25.4)
     for row, words in enumerate(rows):
-        text(axes, complex(box.left + 2.0, box.high - 0.75 * step - step * row), words, 6.2)
+        text(axes, complex(box.left + 2.0, box.high - 0.75 * step - step * row), words, size)
 
 
 def columns(axes: Axes, page: Page, heads: Sequence[str], rows: Sequence[Sequence[str]], count: int) -> None:

@@ -7,6 +7,7 @@ table of a gear or of other sizes, or places of the roller or of the profile in 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -281,7 +282,8 @@ def _table(made: Figure, page: paper.Page, part: Part) -> None:
 def _polar_table(axes: Axes, page: paper.Page, rows: Rows) -> None:
     """Radius and direction of each place."""
     heads = ("°", "R", "φ")
-    cells = [(f"{at:.6g}", f"{abs(place):.3f}", f"{_degrees(place):.3f}") for at, place in rows]
+    digits = next((some for some in range(4) if all(math.isclose(at, round(at, some)) for at, _ in rows)), 4)
+    cells = [(f"{at:.{digits}f}", f"{abs(place):.3f}", f"{_degrees(place):.3f}") for at, place in rows]
     paper.columns(axes, page, heads, cells, math.ceil(len(cells) / (60 if page.name == "A3" else 30)))
 
 
@@ -319,7 +321,9 @@ def _of_table(part: Part, rows: Rows) -> Iterator[str]:
 
 
 def _begun(words: str) -> str:
-    return words[:1].upper() + words[1:]
+    """A note with a capital letter, its numbers to 0.1 um: files for machines have all digits."""
+    short = re.sub(r"\d+\.\d{5,}", lambda found: f"{float(found[0]):.4f}", words)
+    return short[:1].upper() + short[1:]
 
 
 def _polar_rows(part: Part) -> Rows:
