@@ -75,7 +75,10 @@ def instants(made: Figure, design: Any, checks: Sequence[Check]) -> None:
             bad = np.interp(x, place[order], fault.at[order], period=period) > 0.5
             failing.past(axes, x, y, bad, " ".join(fault.words.split()[:2]))  # code and name
         if rows[0].get_legend_handles_labels()[1] and not rows[0].child_axes:  # above it are names of phases
-            panels.legend_above(rows[0], 3)
+            if len(columns) > 1:  # a panel of half the page has no room beside its heading
+                panels.legend_under_heading(rows[0], str(rows[0].get_title(loc="left")), 1)
+            else:
+                panels.legend_above(rows[0], 3)
 
 
 def _driven(motion: Motion) -> tuple[complex, float] | None:

@@ -7,6 +7,7 @@ of the size; their second differences eps/h^2, below 1e-4.
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,13 @@ import numpy as np
 import pytest
 import yaml
 from factory import design, each_kind
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from sheets import words
 
 from gearlink.cli.views.figures import loads as loads_sheets
 from gearlink.cli.views.figures import machine, tolerance
+from gearlink.cli.views.figures import of_motion as whole
 from gearlink.cli.views.figures.drawing import labels
 from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, vector_sheet
@@ -525,3 +529,39 @@ def test_sheets_call_inputs_and_points_in_words() -> None:
     names = [label for axes in figure.axes for label in axes.get_legend_handles_labels()[1]]
     assert "roller y" in names
     assert not any("_" in name for name in names)
+
+
+def test_a_vector_that_is_zero_is_a_point_on_the_scale_of_the_others() -> None:
+    """Where the velocity is largest, the acceleration was an arrow of its rounding on an axis of 1e-13."""
+    made = design("barrel_cam")
+    place = made.quantity("velocity_max_at").value
+    axes = Figure().subplots()
+    vector_sheet.polygon(axes, made, math.radians(place), 2)
+    q = np.linspace(0.0, 2.0 * np.pi, 721)
+    largest = max(np.abs(each).max() for each in vector_sheet.rates(made, q, 2)[0].values())
+    assert np.ptp(axes.get_ylim()) > 0.1 * largest
+
+
+def test_names_of_findings_do_not_cover_the_headings_of_columns() -> None:
+    """They covered the name of an output in the second column."""
+    made = design("planar_watt", limits__transmission_angle=85.0)
+    figure = motion_sheet.draw(made)
+    whole.instants(figure, made, made.check("transmission-angle"))
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    figure.draw(renderer)
+    named = [axes for axes in figure.axes if axes.get_legend() is not None]
+    assert len(named) > 1
+    for axes in named:
+        title, legend = axes._left_title.get_window_extent(renderer), axes.get_legend().get_window_extent(renderer)
+        assert not title.overlaps(legend)
+
+
+def test_a_hodograph_of_many_turns_is_round() -> None:
+    """Of 87 turns of an input it had eight corners in each, which together made a broad ring."""
+    made = design("cycloidal_reducer", pins=60, eccentricity=0.6, pin_radius=2.0)
+    axes = Figure().subplots()
+    vector_sheet.hodographs(axes, made, 1)
+    ring = next(line for line in axes.lines if str(line.get_gid()).startswith("hodograph"))
+    middles = 0.5 * (ring.get_xydata()[1:] + ring.get_xydata()[:-1])
+    radii = np.hypot(*middles.T)
+    assert radii.min() == pytest.approx(radii.max(), rel=1e-3)

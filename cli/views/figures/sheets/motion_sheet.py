@@ -299,7 +299,7 @@ def has_zone(design: Any) -> bool:
 
 
 def zone_errors(design: Any, degrees: Reals, *, cams: bool = True) -> tuple[Reals, Reals]:
-    """Bed minus cylinder at inputs, from the start of the zone on: way [mm] and speed [mm/s].
+    """Bed minus cylinder at inputs, from the start of the zone on: travel [mm] and speed [mm/s].
 
     Parameters
         cams : bool - with what the cams add to the bed, where there are some
@@ -323,7 +323,7 @@ def zone(design: Any) -> Figure:
     errors = {"drives alone": zone_errors(design, x, cams=False)}
     if design.spec.cam is not None:
         errors["with cams"] = zone_errors(design, x)
-    for row, (axes, words, unit) in enumerate(zip(rows, ("way", "speed"), ("mm", "mm/s"), strict=True)):
+    for row, (axes, words, unit) in enumerate(zip(rows, ("travel", "speed"), ("mm", "mm/s"), strict=True)):
         panels.curves(axes, "input angle [deg]" if row else "", f"{words} [{unit}]")
         axes.set_xlim(start, end)
         axes.axhline(0.0, color=style.GREY, linewidth=0.7)

@@ -31,6 +31,8 @@ _LINES = ("-", style.LONG, style.CHAIN, style.DOTTED)
 """Seven and four have no common factor: 28 curves, each with a look of its own."""
 _LETTER = 5.5
 """Width of a letter, and half the height of a word [pt]."""
+_NOTHING = 1e-3
+"""Share of the largest vector of the period below which one is nothing: the input is rounded to 1e-4 deg."""
 _WISHES = "velocity,acceleration"
 _NAMES = ("velocity", "acceleration")
 
@@ -206,7 +208,8 @@ def polygon(axes: Axes, design: Any, q: float, order: int) -> None:
             shape = np.array([*corners, corners[0]] if len(corners) > 2 else corners)
             look: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.9, "zorder": 3}
             axes.plot(shape.real, shape.imag, **look, gid=f"{name} of {link}")
-    reach = max((abs(end) for end in ends.values()), default=1.0) or 1.0
+    longest, largest = max(map(abs, ends.values()), default=0.0), _largest_rate(design, order)
+    reach = longest if longest > _NOTHING * largest else 0.1 * largest or 1.0
     taken: list[complex] = []
     for point, end in ends.items():
         if all(abs(end - other) > 0.06 * reach for other in taken):
@@ -215,9 +218,23 @@ def polygon(axes: Axes, design: Any, q: float, order: int) -> None:
             away *= labels.reach(away / abs(away), complex(0.5 * _LETTER * len(word), _LETTER)) + 3.5
             style.letter(axes, end, word, (away.real, away.imag))
             taken.append(end)
+    if reach > longest:  # a zero with its rounding is a point, not an arrow on an axis of its own
+        axes.update_datalim([(-reach, -reach), (reach, reach)])
     axes.plot([0.0], [0.0], "o", color=style.BLACK, markersize=3, zorder=7)
     style.letter(axes, 0j, "p" if order == 1 else "p'", (-7.0, -7.0))
     axes.margins(0.18)
+
+
+def _all_inputs(given: Input) -> Reals:
+    """Inputs of the whole period, so many in each turn of it that a circle is round."""
+    return np.linspace(given.start, given.end, 720 * min(given.turns or 1, 40) + 1)
+
+
+def _largest_rate(design: Any, order: int) -> float:
+    """The largest velocity or acceleration of a point over the period."""
+    given = design.moving.input
+    found, _ = rates(design, _all_inputs(given), order)
+    return max((float(np.nanmax(np.abs(each))) for each in found.values()), default=0.0)
 
 
 def _vector_axes(axes: Axes, title: str) -> None:
@@ -231,8 +248,7 @@ def _vector_axes(axes: Axes, title: str) -> None:
 def hodographs(axes: Axes, design: Any, order: int, wanted: str = "") -> None:
     """The ends of the vectors of each point over the period, with a dot at input 0 and a tick at every 30 deg."""
     given = design.moving.input
-    q = np.linspace(given.start, given.end, 721)
-    found, _ = rates(design, q, order)
+    found, _ = rates(design, _all_inputs(given), order)
     asked = [wish.point for wish in shown.wishes(wanted) if wish.what == _NAMES[order - 1] and wish.point]
     chosen = {name: each for name, each in found.items() if not asked or name in asked}
     _vector_axes(axes, f"Hodographs, {_NAMES[order - 1]} [{unit(design, order)}]")
