@@ -1529,7 +1529,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         ahead = self.motion.compensation
         if self.spec.cam is None and abs(ahead) > _ROUNDING * self.motion.zone_length:
             side = "ahead of" if ahead > 0.0 else "behind"
-            what = f"travel of the bed {side} the cylinder over the zone, without a compensation cam"
+            what = f"travel of the bed {side} the cylinder at the end of the zone, without a compensation cam"
             yield SYNC_SPEED.check("warn", what, abs(ahead), 0.0, "mm", fix="give the section cam")
 
     def check_sync_length(self) -> Iterator[Check]:
