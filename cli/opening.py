@@ -240,13 +240,15 @@ def _text(value: Any, key: str, indent: int | None = None) -> str:
         GearlinkError - for what a file cannot hold
     """
     try:
-        return json.dumps(value, indent=indent, default=_as_python)
+        return json.dumps(value, indent=indent, default=_as_python, allow_nan=False)
     except _NoValue as error:
         refusal = f"is of type {error}, which no design file can hold\ngive a number, text, a list or a dict"
     except TypeError:
         refusal = "has a section whose keys are not text"
-    except (ValueError, RecursionError):
+    except (ValueError, RecursionError) as error:
         refusal = "contains itself, or endlessly nested sections"
+        if "JSON compliant" in str(error):
+            refusal = "is or contains a number that is not finite\ngive finite numbers"
     raise _refused(refusal, key)
 
 

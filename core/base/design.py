@@ -392,9 +392,13 @@ class Design:
             findings : list of Check - empty where the check does not apply to this design; without tested fixes,
                 which `findings` adds
         Raises
+            UnknownName - for a name that the kind does not have
             NoSolution - where no mechanism exists
         """
-        method = "check_" + name.replace("-", "_")
+        method = "check_" + name.replace("-", "_") if isinstance(name, str) else ""
+        if not hasattr(type(self), method):
+            known = dict.fromkeys(each for outline in self.outlines.values() for each in outline.checks)
+            raise UnknownName("check", name, tuple(known))
         with step(f"{type(self).__name__}.{method}"):
             found: Check | Iterable[Check] = getattr(self, method)()
             return [found] if isinstance(found, Check) else list(found)

@@ -240,6 +240,23 @@ class TestNames:
             with pytest.raises(gearlink.GearlinkError, match="this design has no"):
                 ask(name)
 
+    def test_a_check_that_is_none_names_those_there_are(self) -> None:
+        """It was an AttributeError about `check_nosuch`."""
+        crank = gearlink.design(**CRANK)
+        with pytest.raises(gearlink.GearlinkError, match="no check named 'nosuch'; known: transmission-angle"):
+            crank.check("nosuch")
+        with pytest.raises(gearlink.GearlinkError, match="names are text"):
+            crank.check(3)
+        assert crank.check("transmission-angle")
+
+    @pytest.mark.parametrize("value", [math.nan, math.inf, np.float64("nan"), [1.0, -math.inf]])
+    def test_numbers_that_are_not_finite(self, value: Any) -> None:
+        """They were "not a number, but 'NaN'"."""
+        for make in (lambda: gearlink.design(**{**CRANK, "stroke": value}),
+                     lambda: gearlink.changed(gearlink.design(**CRANK), {"stroke": value})):  # fmt: skip
+            with pytest.raises(gearlink.GearlinkError, match="'stroke' is or contains a number that is not finite"):
+                make()
+
     @pytest.mark.parametrize("samples", [0, 1, -5, 2.5, "36", True, 10**9, 10**30, math.nan])
     def test_rows_that_no_table_has(self, samples: Any) -> None:
         with pytest.raises(gearlink.GearlinkError, match="a whole one from 2 to 10000000, not"):
@@ -297,6 +314,7 @@ def test_long_tables_show_their_ends(designs: Path) -> None:
 def test_figure_is_the_sheet(designs: Path) -> None:
     figure = gearlink.figure(gearlink.load(designs / "ty460_slider_crank.yaml"))
     assert figure.axes
+    assert figure._repr_png_().startswith(b"\x89PNG")  # notebooks showed a line of text without pyplot
 
 
 def test_kernels_stand_in_their_packages() -> None:

@@ -361,7 +361,9 @@ def test_without_a_cam_what_the_travels_gather_over_the_zone_is_warned_of(name):
     assert [check.status for check in found] == ["pass", "warn"]
     assert found[1].value == pytest.approx(float(abs(ahead)), abs=1e-11)
     side = "ahead of" if ahead > 0 else "behind"
-    assert f"travel of the bed {side} the cylinder at the end of the zone, without a compensation cam" in found[1].message
+    assert (
+        f"travel of the bed {side} the cylinder at the end of the zone, without a compensation cam" in found[1].message
+    )
     (alone,) = press(oracle, sync={"length": length}, cam=CAM).check("sync-speed")
     assert alone == found[0]
 

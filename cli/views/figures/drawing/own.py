@@ -86,3 +86,11 @@ class Sheet(Figure):
             look["axes_class"] = Panel
         made: Axes = super().add_subplot(*places, **look)
         return made
+
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows, without pyplot too."""
+        from io import BytesIO
+
+        page = BytesIO()
+        self.savefig(page, format="png", dpi=80)
+        return page.getvalue()
