@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import re
+import unicodedata
 from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -19,7 +20,7 @@ GLOSSARY = Path(__file__).parent / "texts" / "glossary.json"
 _FOLDED = {"ß": "ss", "ä": "ae", "ö": "oe", "ü": "ue"}
 _SEPARATORS = re.compile(r"[\s_'’-]+")
 _PLACE = re.compile(
-    r"(?P<source>[^()]*?)(?:(?<![a-z])(?P<what>figures?|fig\.?|附?图|рис\.?|abb(?:ildung)?\.?|bild|gl(?:eichung)?\.?|式|equations?|eqs?\.?|formula|section|sheet)\s*)?"
+    r"(?P<source>[^()]*?)(?:(?<![a-z])(?P<what>figures?|fig\.?|附?图|рис\.?|abb(?:ildung)?\.?|bild|gl(?:eichung)?\.?|式|equations?|eqs?\.?|formula|section|sheet|examples?|beispiel|例)\s*)?"
     r"(?P<open>\()?(?P<label>\d+(?:[-.]\d+){0,2})\)?",
     re.IGNORECASE,
 )
@@ -34,7 +35,7 @@ _WHAT = {
     "eq": "equation",
     "fo": "equation",
 }
-_WHAT |= {"se": "section", "sh": "sheet", "附图": "sheet"}
+_WHAT |= {"se": "section", "sh": "sheet", "附图": "sheet", "ex": "example", "be": "example", "例": "example"}
 _NUMERALS = str.maketrans("一二三四五六七八九", "123456789")
 
 
@@ -157,6 +158,36 @@ def named_terms(name: str) -> list[Concept]:
     asked = folded(name)
     found = _by_name().get(asked) or _by_name().get(asked.removesuffix("s"), [])
     return sorted(found, key=lambda term: folded(term.name) != asked)
+
+
+def terms_by_symbol(symbol: str) -> list[Concept]:
+    """The terms with a symbol that is written so.
+
+    Example
+        >>> [term.name for term in terms_by_symbol("K_A")]
+        ['application factor']
+    """
+    return [term for term in glossary().values() if term.symbol == symbol]
+
+
+_GREEK = {"ε": "eps", "ϕ": "phi", "ϑ": "theta", "ϵ": "eps"}
+_LETTER = re.compile("[\u0391-\u03a9\u03b1-\u03c9\u03d1\u03d5\u03f5]")
+
+
+def in_latin_letters(symbol: str) -> str:
+    """A symbol with its Greek letters as the nomenclature writes them, subscripts as letters.
+
+    Example
+        >>> in_latin_letters("ε_α"), in_latin_letters("K_Hβ"), in_latin_letters("φ₁₃"), in_latin_letters("Ψ_0")
+        ('eps_alpha', 'K_Hbeta', 'phi13', 'Psi_0')
+    """
+
+    def spelled(found: re.Match[str]) -> str:
+        letter = found[0]
+        called = unicodedata.name(letter).split()[3].lower().replace("lamda", "lambda")
+        return _GREEK.get(letter) or (called.capitalize() if letter.isupper() else called)
+
+    return normalize("NFKC", _LETTER.sub(spelled, symbol))
 
 
 def terms_within(text: str, most: int = 4) -> list[str]:

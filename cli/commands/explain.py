@@ -138,11 +138,14 @@ def find(subject: str) -> list[Topic]:
     subject = re.sub(r"\[\d+\]$", "", " ".join(subject.split()))
     if re.fullmatch(r"(?i)GL\d{3}", subject):  # no term is written so, and no key
         return list(_topics(subject.upper()))
-    from gearlink.cli.glossary import meanings_of, named_places, named_terms
+    from gearlink.cli.glossary import in_latin_letters, meanings_of, named_places, named_terms, terms_by_symbol
 
     found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
     found += _program_names(subject)
     found += [_meaning(subject, meaning) for meaning in meanings_of(subject)]
+    found = found or [_term(term) for term in terms_by_symbol(subject)]
+    if not found and (latin := in_latin_letters(subject)) != subject:
+        return find(latin)
     return found or list(_told_of(subject)) or list(_turned_round(subject)) or [*_events(subject), *_inner(subject)]
 
 
@@ -372,6 +375,7 @@ def _term(term: Concept) -> Topic:
 
 _CITED = {
     "equation": r"\({}\)",
+    "example": r"example {}\b",
     "figure": r"fig(?:ure|\.) {}(?![\w-])",
     "section": r"\b{}(?![\w.])",
     "sheet": r"sheet {}\b",

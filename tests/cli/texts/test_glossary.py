@@ -191,6 +191,9 @@ def test_places_lead_to_kinds_and_commands_that_there_are(place: Any) -> None:
         ("paper (5)", "swing-gripper paper", "equation", "gripper"),
         ("Gl. 4-26", "thesis", "equation", "synth momentary-dwell"),
         ("Bild 4-5", "thesis", "figure", "chart back-step"),
+        ("例1", "thesis", "example", "synth back-step"),
+        ("Example 2", "thesis", "example", "synth variable-speed"),
+        ("section 4.2.3", "thesis", "section", "synth momentary-dwell"),
     ],
 )
 def test_a_place_of_a_source_leads_to_its_command(name: str, source: str, what: str, command: str) -> None:
@@ -244,3 +247,29 @@ def test_nothing_reads_the_glossary_before_it_is_asked_for() -> None:
     probe = "import sys\nfrom gearlink.cli.commands.explain import find\nassert find('gl301')\n"
     probe += "assert 'gearlink.cli.glossary' not in sys.modules"
     subprocess.run([sys.executable, "-c", probe], check=True, cwd=DESIGNS.parent)
+
+
+@pytest.mark.parametrize(
+    ("symbol", "name"),
+    [
+        ("K_A", "application factor"),
+        ("K_gamma", "mesh load factor"),
+        ("\u03b5_\u03b1", "eps_alpha"),
+        ("\u03b1_wt", "alpha_wt"),
+        ("\u03c3_Hlim", "sigma_Hlim"),
+        ("K_H\u03b2", "face load factor"),
+        ("\u03c6\u2081\u2083", "phi13"),
+    ],
+)
+def test_symbols_are_found_as_figures_print_them(gearlink: Any, symbol: str, name: str) -> None:
+    """Greek letters, as every figure has them, were unknown, and so were symbols that a term alone has."""
+    assert gearlink("explain", symbol, "--format", "json").json["topics"][0]["name"] == name
+
+
+@pytest.mark.parametrize(
+    "place", [place for place in places() if place.what == "example"], ids=lambda place: place.first
+)
+def test_examples_of_the_thesis_name_their_design_files(gearlink: Any, place: Any) -> None:
+    assert gearlink("explain", f"example {place.first}").status == 0
+    file = place.says.split("; ")[-1].removeprefix("designs/")
+    assert (DESIGNS / file).is_file()
