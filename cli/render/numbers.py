@@ -136,6 +136,9 @@ def readable_rows(
     cells = [[_quiet(x, level) for x, level in zip(row, noise, strict=True)] for row in rows]
     by_column = list(zip(*cells, strict=True)) or [()] * len(table.units)
     columns = [_of_column(column, unit, digits) for column, unit in zip(by_column, table.units, strict=True)]
+    if digits is None and "unit" in table.columns:
+        units = by_column[table.columns.index("unit")]
+        columns = [_of_lines(column, units) for column in by_column]
     return [list(row) for row in zip(*columns, strict=True)]
 
 
@@ -143,6 +146,13 @@ def _of_column(values: Sequence[object], unit: str, digits: int | str | None) ->
     """The cells of a column; whole numbers of a drawing, such as input angles, without digits behind the point."""
     whole = digits is None and all(not isinstance(x, float) or x.is_integer() for x in values)
     return [drawn(x, "1" if whole else unit, 7 if whole else digits) for x in values]
+
+
+def _of_lines(values: Sequence[object], units: Sequence[object]) -> list[str]:
+    """The cells of a column whose lines have a unit each; what is round in the digits of a drawing without zeros."""
+    pairs = list(zip(values, map(str, units), strict=True))
+    round_ = [isinstance(x, float) and x == round(x, _DRAWN.get(unit, 0)) for x, unit in pairs]
+    return [number(x) if short else drawn(x, unit) for (x, unit), short in zip(pairs, round_, strict=True)]
 
 
 def _noise(largest: float, scale: float) -> float:

@@ -87,3 +87,15 @@ def test_json_keeps_full_precision(gearlink: Any, designs: Any) -> None:
     assert re.search(r"speed_ratio_min .* 0 *$", gearlink(*line, "--all").out, re.MULTILINE)
     value = gearlink(*line, "--format", "json").json["quantities"]["speed_ratio_min"]["value"]
     assert value == pytest.approx(0.0, abs=1e-15)
+
+
+def test_lines_with_a_unit_each_have_the_digits_of_a_drawing() -> None:
+    """Limits of a measure over balls, 237.441 and 237.235 mm, were 237.4 and 237.2 in the gear table."""
+    item, gear = (
+        ("measure, maximum", "measure, minimum", "teeth", "module", "angle"),
+        (237.4412, 237.2349, 64, 3.5, 21.6081),
+    )
+    unit = ("mm", "mm", "", "mm", "deg")
+    table = Table("drawing", ("item", "gear 2", "unit"), ("1", "1", "1"), (item, gear, unit))
+    assert [row[1] for row in readable_rows(table, digits=None)] == ["237.441", "237.235", "64", "3.5", "21.61"]
+    assert [row[1] for row in readable_rows(table, digits=4)] == ["237.4", "237.2", "64", "3.5", "21.61"]
