@@ -240,9 +240,15 @@ def _results(report: Report) -> Iterator[str]:
 
 
 def _below_each_other(value: Any) -> str:
-    """Limits of several gears on lines of their own: in one line they leave the words beside them no room."""
+    """Limits of several gears on lines of their own, many numbers in threes: in one line they leave the words beside
+    them no room."""
     several = isinstance(value, list) and value != [] and all(isinstance(each, list) for each in value)
+    if isinstance(value, list) and len(value) > _IN_A_LINE and all(isinstance(each, float) for each in value):
+        value, several = [value[i : i + _IN_A_LINE] for i in range(0, len(value), _IN_A_LINE)], True
     return "\n".join(number(each, 9) for each in value) if several else number(value, 9)
+
+
+_IN_A_LINE = 3
 
 
 def shown_rows(given: Table) -> int:

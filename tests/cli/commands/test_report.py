@@ -176,3 +176,10 @@ def test_a_pdf_shows_no_animation(gearlink: Any, crank: Path, tmp_path: Path) ->
     assert ended.status == 2
     assert "--show velocity is for the animation, which a pdf does not have" in ended.err
     assert not (tmp_path / "out").exists()
+
+
+def test_many_numbers_of_a_result_leave_room_for_its_meaning() -> None:
+    """Six critical speeds in one line squeezed the column of meanings to a word a line, and cut that of sources."""
+    shown = sections._below_each_other([1573.89255, 7446.51986, 8748.20861, 12027.7346, 22553.3568, 26046.3173])
+    assert [len(line.split()) for line in shown.splitlines()] == [3, 3]
+    assert sections._below_each_other([0.31, 0.05]) == "0.31 0.05"
