@@ -122,10 +122,8 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
     ends = [segment.to for segment in motion]
     for before, after in pairwise(ends):
         if after <= before:
-            raise refused(
-                f"the segments must ascend: one ends at {unlike(after, before)} deg, after {unlike(before, after)} deg",
-                "motion",
-            )
+            words = f"one ends at {unlike(after, before)} deg, after {unlike(before, after)} deg"
+            raise refused(f"the segments must ascend: {words}\ncount each `to` from cam angle 0", "motion")
     if ends[-1] != 360.0:
         raise refused(
             f"end of the last segment: {unlike(ends[-1], 360.0)} deg (required 360 deg)\nset its to: 360", "motion"

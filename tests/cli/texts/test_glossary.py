@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sys
 from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -273,3 +274,27 @@ def test_examples_of_the_thesis_name_their_design_files(gearlink: Any, place: An
     assert gearlink("explain", f"example {place.first}").status == 0
     file = place.says.split("; ")[-1].removeprefix("designs/")
     assert (DESIGNS / file).is_file()
+
+
+@pytest.mark.parametrize(
+    ("line", "help"),
+    [
+        ("motion: [{for: 90, lift: 5}, {to: 360, lift: 0}]", "write `to`, the cam angle at its end, counted from 0"),
+        ("cam: {prime_radius: 70, bore: 30}", "write `shaft_radius` in `cam`, half of it"),
+        ("follower: {type: oscillating-roller, arm_length: 95}", "write `arm: 95` in `follower`"),
+        ("follower: {type: oscillating-roller, pivot: [130, 0]}", "write `center_distance` and `pivot_direction`"),
+        ("motion: [{to: 90, lift: 5}, {to: 60}, {to: 360, lift: 0}]", "count each `to` from cam angle 0"),
+    ],
+)
+def test_words_of_a_cam_designer_lead_to_their_keys(gearlink: Any, tmp_path: Path, line: str, help: str) -> None:
+    """They were answered with the list of all keys."""
+    other = {
+        "motion": "motion: [{to: 90, lift: 5, law: cycloidal}, {to: 360, lift: 0, law: cycloidal}]",
+        "follower": "follower: {type: oscillating-roller, arm: 95, center_distance: 130, roller_radius: 14}",
+        "cam": "cam: {prime_radius: 70}",
+    } | {line.partition(":")[0]: line}
+    file = tmp_path / "cam.yaml"
+    file.write_text("\n".join(["kind: disc-cam", *other.values()]))
+    ended = gearlink("cam", str(file))
+    assert ended.status == 2
+    assert help in ended.err
