@@ -298,3 +298,23 @@ def test_words_of_a_cam_designer_lead_to_their_keys(gearlink: Any, tmp_path: Pat
     ended = gearlink("cam", str(file))
     assert ended.status == 2
     assert help in ended.err
+
+
+@pytest.mark.parametrize(
+    ("kind", "line", "help"),
+    [
+        ("swing-gripper", "links: {AC: 150, CD: 260, ED: 100}", "write `input: 150` in `links`"),
+        ("swing-gripper", "links: {l1: 150, l3: 260, l4: 100}", "one of the links AC and ED; the paper does not say"),
+        ("swing-gripper", "phases: {theta_A1: 100}", "write the length of each phase in `phases`"),
+        ("wide-swing-cam", "phi: 120", "write `cycle_angle: 120`"),
+        ("wide-swing-cam", "cam: {a: 200, r_p: 8}", "write `center_distance: 200` in `cam`"),
+        ("three-gear-four-bar", "back_step: {phi5: 20, phi12: 90}", "write `angle: 20` in `back_step`"),
+    ],
+)
+def test_symbols_of_the_sources_lead_to_their_keys(
+    gearlink: Any, tmp_path: Path, kind: str, line: str, help: str
+) -> None:
+    """They were answered with the list of all keys."""
+    file = tmp_path / "source.yaml"
+    file.write_text(f"kind: {kind}\n{line}\n")
+    assert help in gearlink("analyze", str(file)).err
