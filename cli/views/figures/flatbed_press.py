@@ -213,7 +213,7 @@ def cylinder_chain(joints: tuple[Points, ...]) -> Scene:
 
 
 def _bed(machine: Machine, travel: Course) -> list[Part]:
-    """Pinion on F between the rack that the cams move and the rack of the bed."""
+    """Pinion on F between the rack that the cams move, without them fixed, and the rack of the bed."""
     stroke, fraction = machine.design.motion.bed_stroke, machine.fraction
     f, pinion = machine.bed_joints[5], machine.pinion
     middle = 0.5 * (float(f.real.min()) + float(f.real.max()))
@@ -224,10 +224,11 @@ def _bed(machine: Machine, travel: Course) -> list[Part]:
     lower = middle + machine.lift + 1j * (machine.slide - pinion - 0.5 * thick)
     turn = -(f.real - machine.lift) / pinion
     spoke = pinion * np.array([-1.0, 1.0, 0.0, 1j, -1j])
+    words = "fixed rack" if machine.design.spec.cam is None else "rack moved by the cams"
     return [
         Line(points=f[[int(f.real.argmin()), int(f.real.argmax())]]),
         block(upper, 0.72 * stroke, thick, style.BLACK, "bed", fill=_BED),
-        block(lower, 1.0 * stroke, thick, style.BLACK, "rack moved by the cams", fill=_RACK),
+        block(lower, 1.0 * stroke, thick, style.BLACK, words, fill=_RACK),
         wheel(f, pinion, fraction, color=style.BLUE, fill=pale(style.BLUE, 0.1)),
         Body(outline=spoke, place=f, turn=turn, color=style.BLUE),
     ]

@@ -258,3 +258,11 @@ def test_the_shaft_is_drawn_where_the_file_gives_one() -> None:
     (shaft,) = [patch for patch in axes.patches if getattr(patch, "radius", 0.0) == 35.0]
     assert shaft.center == (0.0, 0.0)
     assert "shaft, 35 mm" in [line.get_label() for line in axes.get_lines()]
+
+
+def test_without_cams_the_lower_rack_is_fixed() -> None:
+    """It was "moved by the cams" that the press does not have."""
+    _, figure = sheet("ty460", "press", cam=None)
+    texts = [text.get_text() for axes in figure.axes for text in axes.texts]
+    assert "fixed rack" in texts
+    assert "rack moved by the cams" not in texts
