@@ -14,10 +14,12 @@ from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.core.base.kinds import KINDS
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.studies.tolerance_study.design import ToleranceStudy
+    from gearlink.core.studies.tolerance_study.design import Slope, ToleranceStudy
     from gearlink.core.studies.tolerance_study.samples import Course
 
 
@@ -25,13 +27,14 @@ _MOST = 4
 _MOST_BINS = 60
 _NOTHING = 1e-12  # of the motion
 _ROUNDING = 1e-12  # of a quantity that is 0 [mm, deg]
+_NO_GAIN = 1e-9  # of a size on itself
 _LETTERS = 39  # below a histogram
 _STILL = "no tolerance of this file changes a result"
 
 
 def draw(study: ToleranceStudy) -> Figure:
     """The sheet: a row for each quantity, those of the requirements first, and one for each output over the cycle."""
-    names, courses = study.varying[:_MOST], [one for one in study.courses if _scatters(one)]
+    names, courses = _of_interest(study.varying, study.slopes), [one for one in study.courses if _scatters(one)]
     height = max(1, len(names)) + len(courses)
     title = f"{study.spec.name}: tolerance"
     if study.result.passes:
@@ -46,6 +49,16 @@ def draw(study: ToleranceStudy) -> Figure:
     for i, course in enumerate(courses, start=max(1, len(names))):
         _course(made.add_subplot(grid[i, :]), course)
     return made
+
+
+def _of_interest(names: Iterable[str], slopes: Mapping[str, Sequence[Slope]]) -> list[str]:
+    """Quantities of a sheet; last those that are a toleranced size itself, such as a given length of a link."""
+
+    def is_size(name: str) -> bool:
+        moved = [gain for slope in slopes[name] for gain in slope.gain if abs(gain) > _NO_GAIN]
+        return len(moved) == 1 and abs(moved[0] - 1.0) <= _NO_GAIN
+
+    return sorted(names, key=is_size)[:_MOST]
 
 
 def _scatters(course: Course) -> bool:
@@ -185,12 +198,14 @@ def study_of(design: Any) -> ToleranceStudy | None:
 
 def draw_tornado(design: Any) -> Figure:
     """A panel for each quantity of the study: its change with each source at its lower and its upper limit."""
+    from gearlink.core.studies.tolerance_study.design import slopes
     from gearlink.core.studies.tolerance_study.samples import effects
 
     study = study_of(design)
     assert study is not None, "asked for only where there is one"
     found, nominal = effects(study.problem, list(study.problem.names))
-    names = [name for name, rows in found.items() if _is_moved(rows, nominal[name])][:_MOST]
+    moved = [name for name, rows in found.items() if _is_moved(rows, nominal[name])]
+    names = _of_interest(moved, slopes(study.problem, moved))
     bars = min(_MOST_BARS, len(study.problem.sources))
     each = max(_LEAST_SHARE, 0.05 + 0.022 * bars)
     made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + max(len(names), 1) * each)

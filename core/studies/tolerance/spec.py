@@ -97,7 +97,8 @@ class ToleranceSource(Spec):
         for one, other in (("fit", "size"), ("group", "bore"), ("grade", "width")):
             if (form == one) != (getattr(self, other) is not None):
                 what = f"{other} belongs to {one}" if form != one else f"{one} needs {other}"
-                raise refused(f"{what}\ngive both or neither", code="GL171")
+                fix = "give both or neither" + ("; for a length write class: js7" if one == "grade" else "")
+                raise refused(f"{what}\n{fix}", code="GL171")
         for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
             if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
                 raise refused(

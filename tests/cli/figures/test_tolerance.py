@@ -232,3 +232,18 @@ def test_four_quantities_of_one_source_have_room_below_a_stamp() -> None:
     settled(figure)
     bars = [axes.get_window_extent().height / figure.dpi for axes in figure.axes]
     assert min(bars) > 0.2  # in
+
+
+def test_sizes_that_are_toleranced_themselves_come_last() -> None:
+    """Three of four rows of a crank-rocker were its given links, each by itself alone."""
+    keys = {
+        "swing": None,
+        "links": {"crank": 22, "coupler": 95, "rocker": 60, "frame": 105},
+        "tolerance": {"sources": {f"links.{name}": {"plus_minus": 0.02} for name in ("crank", "coupler", "rocker")}},
+        "tolerance__samples": 64,
+    }
+    made = design("crank_rocker", **keys)
+    for figure in (tolerance.draw(tolerance.study_of(made)), tolerance.draw_tornado(made)):
+        titles = [axes.get_title(loc="left") for axes in figure.axes]
+        assert titles[0].startswith("rocker swing")
+        assert not any(title.startswith(("crank length", "coupler length")) for title in titles)
