@@ -191,6 +191,11 @@ def _require(moment: Moment, members: Sequence[str], events: Sequence[str], *, r
         return
     _require_member(moment.of, members)
     known = RUNS if moment.end or runs else (*EXTREMES, *(f"{run}_{end}" for run in RUNS for end in ("start", "end")))
+    if runs and moment.end and moment.what in RUNS:
+        run, event = f"{moment.of}.{moment.what}", f"{moment.of}.{moment.what}_{moment.end}"
+        raise NotARelation(
+            f"{named(event)} is an event, not a run\nwrite {run} within RUN, or {event} before EVENT", "GL109"
+        )
     if moment.what not in known or (runs and moment.end):
         near = get_close_matches(moment.what, known, n=1)
         remedy = f"did you mean {near[0]}? " if near else ""

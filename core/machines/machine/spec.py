@@ -293,7 +293,7 @@ class MachineSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _drivers(self) -> Self:
         for name, member in self.members.items():
-            plain_name(name, f"members.{name}")
+            plain_name(name, f'members."{name}"')
             if member.input is None:
                 continue
             driver = member.input.partition(".")[0]
@@ -319,7 +319,7 @@ class MachineSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _named(self) -> Self:
         for name, event in self.events.items():
-            plain_name(name, f"events.{name}")
+            plain_name(name, f'events."{name}"')
             if name in self.members:
                 raise refused(f"{name} is a member: give the event another name", f"events.{name}")
             if event.of.partition(".")[0] not in self.members:

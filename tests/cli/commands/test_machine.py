@@ -115,3 +115,27 @@ def test_sheets_film_page_and_table_of_a_drive(gearlink: Any, files: Path) -> No
     assert (files / "machine-cam-table.csv").read_text().startswith("master_position [deg],slave_position [")
     missing = gearlink("export", machine, "--cam-table", "--format", "json", *out)
     assert missing.status == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message", "help"),
+    [
+        ("  feed:", "  feed table:", 4, "'feed table' is not a valid name", "write feed_table"),
+        (
+            "arm.dwell[4]_end before feed.return_end",
+            "arm.rise_end within feed.dwell",
+            8,
+            "'arm.rise_end' is an event, not a run",
+            "write arm.rise within RUN, or arm.rise_end before EVENT",
+        ),
+    ],
+)
+def test_names_and_relations_are_refused_at_their_lines(
+    gearlink: Any, files: Path, old: str, new: str, line: int, message: str, help: str
+) -> None:
+    """A wrong name stood at line 1; the other was "no run 'rise': did you mean rise?"."""
+    (files / "machine.yaml").write_text(MACHINE.replace(old, new))
+    (wrong,) = errors(gearlink("analyze", str(files / "machine.yaml"), "--format", "json"))
+    assert wrong["line"] == line
+    assert wrong["message"].startswith(message)
+    assert wrong["help"] == help
