@@ -68,9 +68,16 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     elif message.startswith("Got unexpected extra") and command.name == "laws":
         wrong.message = f"{message}\n{of_law(message.rpartition('(')[2].rstrip(').').split(' ')[0])}"
     elif message.startswith("Got unexpected extra") and [p.name for p in command.params if p.name in _ONE] == ["spec"]:
-        wrong.message = (
-            f"{message}\n{command.name} accepts one file; `gearlink batch` and `gearlink check` accept several"
-        )
+        several = f"{command.name} accepts one file; `gearlink batch` and `gearlink check` accept several"
+        wrong.message = f"{message}\n{_of_setting(arguments) or several}"
+
+
+def _of_setting(arguments: Sequence[str]) -> str:
+    """How a setting is written whose value stands behind a blank."""
+    for option, path, value in zip(arguments, arguments[1:], arguments[2:], strict=False):
+        if option == "--set" and "=" not in path and not value.startswith("-"):
+            return f"write --set {path}={value}"
+    return ""
 
 
 # Options

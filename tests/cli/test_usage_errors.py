@@ -71,6 +71,7 @@ def pair(tmp_path: Path) -> Path:
         ("dwell SPEC", "help: use `gearlink synth dwell`"),
         ("SPEC", "help: for a file: `gearlink analyze "),
         ("bench involute", "help: run times are measured in a checkout of gearlink, by `make bench`"),
+        ("gear SPEC --set module 3", "help: write --set module=3"),
         ("gear SPEC other.yaml", "help: gear accepts one file; `gearlink batch` and `gearlink check` accept several"),
         ("gear", "Missing argument 'SPEC'.    help: design file, or - for standard input"),
     ],
