@@ -9,7 +9,7 @@ from typing import Any
 from gearlink.cli.reading.design_file import fixed_path, has_term, load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
-from gearlink.cli.reading.places import ENDINGS, base_path
+from gearlink.cli.reading.places import ENDINGS, base_path, is_design_name
 from gearlink.cli.reading.yaml_reader import format_path
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.studies.study.faults import Fault
@@ -26,7 +26,7 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
         where = "the base design"
     else:
         path = base_path(loaded.file, spec.of)
-        if not path.name.endswith(ENDINGS):
+        if not is_design_name(path.name):
             message = f"the base design {path} is not a design file ({', '.join(ENDINGS)})"
             raise DesignFileError([loaded.report("GL101", message, ("of",))])
         try:

@@ -16,7 +16,16 @@ from gearlink.cli.files import stem_of
 from gearlink.cli.options import Keyed
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
-from gearlink.cli.reading.places import ENDINGS, astray, base_path, is_named_pipe, nearest_file, note, piped
+from gearlink.cli.reading.places import (
+    ENDINGS,
+    astray,
+    base_path,
+    is_design_name,
+    is_named_pipe,
+    nearest_file,
+    note,
+    piped,
+)
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
@@ -294,7 +303,7 @@ def _design(loaded: LoadedFile, path: KeyPath, member: dict[str, Any]) -> dict[s
 def _of_file(loaded: LoadedFile, path: KeyPath, of: str, put_over: dict[str, Any]) -> dict[str, Any]:
     """The data of the file that a member names, with what `--set` puts over it."""
     place = base_path(loaded.file, of)
-    if not place.name.endswith(ENDINGS):
+    if not is_design_name(place.name):
         message = f"the member {place} is not a design file ({', '.join(ENDINGS)})"
         raise DesignFileError([loaded.report("GL101", message, (*path, "of"))])
     try:

@@ -14,7 +14,17 @@ from pathlib import Path
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 
 ENDINGS = (".yaml", ".yml")
-"""How the names of design files end."""
+"""How the names of design files end, in capitals too."""
+
+
+def is_design_name(name: str) -> bool:
+    """Whether a name ends as those of design files do.
+
+    Example
+        >>> is_design_name("feed.yaml"), is_design_name("FEED.YAML"), is_design_name("feed.txt")
+        (True, True, False)
+    """
+    return name.lower().endswith(ENDINGS)
 
 
 def design_files(places: Sequence[str]) -> list[Path]:
@@ -68,13 +78,13 @@ def _kind_line(file: str | Path) -> tuple[bytes, int]:
 
 def astray(name: str) -> str:
     """Where a link named as a design file leads, if that is none: its lines would be shown as those of a design."""
-    if not (name.endswith(ENDINGS) and os.path.islink(name)):
+    if not (is_design_name(name) and os.path.islink(name)):
         return ""
     try:
         target = os.path.realpath(name)
     except OSError:  # it leads through a place that this user may not look into: who reads it is told so
         return ""
-    return "" if target.endswith(ENDINGS) or not os.path.exists(target) else target
+    return "" if is_design_name(target) or not os.path.exists(target) else target
 
 
 def is_named_pipe(name: str) -> bool:
@@ -136,7 +146,7 @@ def _below(folder: Path) -> list[Path]:
         for entry in seen:
             if entry.is_dir(follow_symlinks=False):
                 waiting.append(entry.path)
-            elif entry.name.endswith(ENDINGS) and (os.path.isfile(entry) or not os.path.exists(entry)):
+            elif is_design_name(entry.name) and (os.path.isfile(entry) or not os.path.exists(entry)):
                 found.append(entry.path)
     return sorted(map(Path, found), key=lambda path: path.parts)
 
@@ -148,9 +158,9 @@ def nearest_file(name: str, *, folders: bool = False) -> str:
     """
     from difflib import get_close_matches
 
-    there = sorted(_neighbours(name, folders), key=lambda each: (each.endswith(ENDINGS), each))
-    if name.endswith(ENDINGS) and not folders:
-        there = [each for each in there if each.endswith(ENDINGS)]
+    there = sorted(_neighbours(name, folders), key=lambda each: (is_design_name(each), each))
+    if is_design_name(name) and not folders:
+        there = [each for each in there if is_design_name(each)]
     by_stem = {os.path.splitext(each)[0]: each for each in there}
     near = get_close_matches(os.path.splitext(os.path.basename(name))[0], by_stem, n=1)
     return f"did you mean {os.path.join(os.path.dirname(name), by_stem[near[0]])}?" if near else ""

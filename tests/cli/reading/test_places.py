@@ -96,6 +96,18 @@ def test_a_link_that_leads_nowhere(gearlink: Any, here: Path) -> None:
         assert "did you mean" not in ended.out + ended.err
 
 
+def test_endings_in_capitals_are_those_of_designs(gearlink: Any, here: Path) -> None:
+    """A gate passed over FEED.YAML without a word; a link of that name is no way to other files either."""
+    (here / "files" / "FEED.YAML").write_text("kind: slider-crank\nstroke: 1e9\nrod: 1\n")
+    (here / "secret.txt").write_text("token: hunter2\n")
+    os.symlink("../secret.txt", "files/LINK.YML")
+    assert Path("files/FEED.YAML") in design_files(["files"])
+    ended = gearlink("check", "files")
+    assert ended.status == 2
+    assert "which is not a design file" in ended.out + ended.err
+    assert "token" not in ended.out + ended.err
+
+
 def test_what_is_wrong_with_a_link_is_said_with_a_way_out(here: Path) -> None:
     """The system's own words, "Too many levels of symbolic links", and no remedy."""
     os.symlink("b.yaml", "files/a_link.yaml")
