@@ -202,6 +202,28 @@ def test_sizes_of_a_cam_interrupt_their_lines_and_are_as_wide_as_planned() -> No
     assert wide <= true_size._LETTER * max(map(len, note.get_text().split("\n")))
 
 
+@pytest.mark.parametrize("prime", [60.0, 75.0])
+def test_the_arrow_of_rotation_is_clear_of_the_sizes(prime: float) -> None:
+    """It stood at a fixed place, where a radius may be."""
+    motion = [{"to": 60, "lift": 22, "law": "cycloidal"}, {"to": 100}, {"to": 300, "lift": 0, "law": "cycloidal"}]
+    made = design(
+        {
+            "kind": "disc-cam",
+            "motion": [*motion, {"to": 360}],
+            "follower": {"type": "oscillating-roller", "arm": 70, "center_distance": 110, "pivot_direction": 120,
+                         "side": -1, "roller_radius": 9},
+            "cam": {"prime_radius": prime, "shaft_radius": 20},
+        }
+    )  # fmt: skip
+    figure = true_size.workshop_drawing(made, 0)
+    axis = np.mean(np.column_stack(curve(figure, "bore")), axis=0) @ np.array([1.0, 1j])
+    arc = np.column_stack(curve(figure, "sense of rotation")) @ np.array([1.0, 1j]) - axis
+    assert np.all(np.diff(np.unwrap(np.angle(arc))) > 0.0)  # counter-clockwise
+    for text in (each for each in figure.axes[0].texts if re.match(r"[R\u2300]\d", each.get_text())):
+        place = complex(*text.get_position()) - axis
+        assert np.abs(np.angle(arc / place)).min() > 0.1
+
+
 @pytest.mark.parametrize("sheet_of", ["workshop", "true to size"])
 def test_a_groove_is_drawn_with_both_walls(sheet_of: str) -> None:
     """Its outer wall had been left out: the drawing was that of an open cam."""

@@ -279,9 +279,11 @@ def _view(axes: Axes, page: paper.Page, walls: tuple[DiscCam, Any], scale: float
     paper.line(axes, axis + scale * edge * np.array([0.9, 1.0]) * way, 0.9, color=style.WRONG, gid="start mark")
     if shaft > 0.0:
         paper.line(axes, axis + scale * cam_sheets.bore(shaft, way), 0.5, gid="bore")
-    _dimensions(axes, cam, axis, scale, shaft)
-    turning = axis + scale * 0.5 * (cam.min_radius + shaft) * np.exp(1j * cam.sense * np.linspace(1.9, 2.5, 30))
-    paper.line(axes, turning, 0.25)
+    taken = np.array(_dimensions(axes, cam, axis, scale, shaft))
+    free = max(_AROUND.tolist(), key=lambda angle: float(np.abs(np.angle(taken * np.exp(-1j * angle))).min()))
+    bend = np.exp(1j * (free + 0.3 * cam.sense * np.linspace(-1.0, 1.0, 30)))
+    turning = axis + scale * 0.5 * (cam.min_radius + shaft) * bend
+    paper.line(axes, turning, 0.25, gid="sense of rotation")
     paper.arrow(axes, complex(turning[-2]), complex(turning[-1]))
 
 
@@ -301,8 +303,12 @@ def is_cut(cam: DiscCam) -> bool:
     return bool(cam.min_curvature_radius.value <= cam.roller_radius)
 
 
-def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: float) -> None:
-    """Radii to the extreme points of the profile and the roller's diameter; bore and keyway."""
+def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: float) -> list[complex]:
+    """Radii to the extreme points of the profile and the roller's diameter; bore and keyway.
+
+    Returns
+        taken : directions from the axis in which something stands
+    """
     theta = np.linspace(0.0, _TURN, 7201)
     _, profile = cam.points(theta)
     size = np.abs(profile)
@@ -317,19 +323,21 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
     at = axis + scale * roller
     if cam.roller_radius:
         paper.value(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center")
-    if shaft > 0.0:
-        taken = [complex(profile[k]) for k, _ in ends] + [roller]
-        _bore_note(axes, cam, axis, scale, shaft, [each / abs(each) for each in taken])
+    taken = [way / abs(way) for way in [complex(profile[k]) for k, _ in ends] + [roller]]
+    return [*taken, _bore_note(axes, cam, axis, scale, shaft, taken)] if shaft > 0.0 else taken
 
 
+_AROUND = _TURN * (np.arange(24) + 0.5) / 24
+"""Directions that are tried for words and for the arrow of the sense of rotation."""
 _LETTER, _LINE = 1.36, 3.4
 """Width of a letter in the mean, height of a line [mm of paper]."""
 
 
-def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: float, taken: list[complex]) -> None:
+def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: float, taken: list[complex]) -> complex:
     """Size of bore and keyway: in the cam where its outlines leave room for the words, else beside it.
 
-    Of several directions that which is the farthest from those of other dimensions, of which the last is the keyway's.
+    Of several directions that which is the farthest from those of other dimensions, of which the last is the keyway's,
+    is given back.
     """
     words = cam_sheets.bore_words(2.0 * shaft)
     rows = words.split("\n")
@@ -338,7 +346,7 @@ def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: flo
         [*cam.points(np.linspace(0.0, _TURN, 1441)), cam_sheets.bore(shaft, taken[-1])]
     )
     places: list[tuple[bool, bool, float, complex]] = []
-    for way in np.exp(1j * _TURN * (np.arange(24) + 0.5) / 24).tolist():
+    for way in np.exp(1j * _AROUND).tolist():
         seen = (drawn - axis) * way.conjugate()
         far = float(np.abs(seen[np.abs(np.angle(seen)) < 0.3]).max()) + 6.0
         for outside, radius in ((False, 0.8 * scale * cam.min_radius), (True, far)):
@@ -351,6 +359,7 @@ def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: flo
     way = (foot - axis) / abs(foot - axis)
     paper.line(axes, [axis + scale * shaft * way, foot], 0.18)
     paper.value(axes, foot, words, ha="center", va="top" if way.imag < 0.0 else "bottom")
+    return complex(way)
 
 
 class _Words(NamedTuple):
