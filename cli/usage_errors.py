@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from enum import Enum
 from typing import Any, get_args
@@ -178,13 +179,17 @@ def _number(param: Any) -> str:
 
 
 def _in_digits(value: str, param: Any) -> str:
-    """What to write for 1e3 where a whole number is wanted."""
+    """What to write for 1e3 where a whole number is wanted, for 3,5 and for 19/7; not for 3,000, which may be either."""
+    if re.search(r",\d{3}$", value):
+        return ""
+    over, slash, under = value.replace(",", ".").partition("/")
     try:
-        number = float(value)
-    except ValueError:
+        number = float(over) / (float(under) if slash else 1.0)
+    except (ValueError, ZeroDivisionError):
         return ""
     low, high = (end if end is not None else number for end in (param.min, param.max))
-    return f"\nwrite {number:.0f}" if number.is_integer() and low <= number <= high else ""
+    written = f"{number:.0f}" if number.is_integer() else "" if "whole" in _number(param) else f"{number:.12g}"
+    return f"\nwrite {written}" if written and low <= number <= high else ""
 
 
 def _with_one_dash(arguments: Sequence[str], command: Any) -> str:

@@ -215,7 +215,10 @@ def _numbers(text: str, sign: str, option: str) -> tuple[float, ...]:
     try:
         numbers = tuple(float(part) for part in text.split(sign) if part.strip())
     except ValueError:
-        raise typer.BadParameter(f"{text!r} contains something other than numbers", param_hint=option) from None
+        words = (
+            f"{text!r} contains something other than numbers\nwrite numbers with {sign} between them, such as 2{sign}3"
+        )
+        raise typer.BadParameter(words, param_hint=option) from None
     least, most = (1e-3, 1e3) if option == "--modules" else (-10.0, 10.0)
     if not all(least <= number <= most for number in numbers):
         words = f"{text!r} contains a number that is not from {least:g} to {most:g}"
