@@ -179,7 +179,7 @@ def _number(param: Any) -> str:
 
 
 def _in_digits(value: str, param: Any) -> str:
-    """What to write for 1e3 where a whole number is wanted, for 3,5 and for 19/7; not for 3,000, which may be either."""
+    """What to write for 1e3 where a whole number is wanted, for 3,5 and 19/7; nothing for 3,000, which is either."""
     if re.search(r",\d{3}$", value):
         return ""
     over, slash, under = value.replace(",", ".").partition("/")
