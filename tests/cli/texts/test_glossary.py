@@ -279,9 +279,9 @@ def test_examples_of_the_thesis_name_their_design_files(gearlink: Any, place: An
 @pytest.mark.parametrize(
     ("line", "help"),
     [
-        ("motion: [{for: 90, lift: 5}, {to: 360, lift: 0}]", "write `to`, the cam angle at its end, counted from 0"),
+        ("motion: [{for: 90, lift: 5}, {to: 360, lift: 0}]", "write `to`, the angle at its end, counted from 0"),
         ("cam: {prime_radius: 70, bore: 30}", "write `shaft_radius` in `cam`, half of it"),
-        ("follower: {type: oscillating-roller, arm_length: 95}", "write `arm: 95` in `follower`"),
+        ("follower: {type: oscillating-roller, arm_length: 95}", "write `arm` in `follower`"),
         ("follower: {type: oscillating-roller, pivot: [130, 0]}", "write `center_distance` and `pivot_direction`"),
         ("motion: [{to: 90, lift: 5}, {to: 60}, {to: 360, lift: 0}]", "count each `to` from cam angle 0"),
     ],
@@ -306,6 +306,7 @@ def test_words_of_a_cam_designer_lead_to_their_keys(gearlink: Any, tmp_path: Pat
         ("swing-gripper", "links: {AC: 150, CD: 260, ED: 100}", "write `input: 150` in `links`"),
         ("swing-gripper", "links: {l1: 150, l3: 260, l4: 100}", "one of the links AC and ED; the paper does not say"),
         ("swing-gripper", "phases: {theta_A1: 100}", "write the length of each phase in `phases`"),
+        ("gear-pair", "bore: 30", "write `bore: 30` in `rating`"),
         ("wide-swing-cam", "phi: 120", "write `cycle_angle: 120`"),
         ("wide-swing-cam", "cam: {a: 200, r_p: 8}", "write `center_distance: 200` in `cam`"),
         ("three-gear-four-bar", "back_step: {phi5: 20, phi12: 90}", "write `angle: 20` in `back_step`"),
