@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import MissingSection
-from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import Check, Status, Table, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes
 from gearlink.core.parts.cams.checks import step_check
@@ -143,8 +143,8 @@ class OfFollower(WithExtremes, WithShapedLaws):
         lifts = [math.degrees(piece.high) if self.rocks else piece.high for piece in pieces]
         columns: dict[str, tuple[Any, str]] = {
             "segment": ([piece.number for piece in pieces], "1"),
-            "start": ([math.degrees(piece.start) for piece in pieces], "deg"),
-            "end": ([math.degrees(piece.end) for piece in pieces], "deg"),
+            "start": ([ends_of(piece)[0] for piece in pieces], "deg"),
+            "end": ([ends_of(piece)[1] for piece in pieces], "deg"),
             "law": ([piece.name for piece in pieces], "1"),
             "lift": (lifts, "deg" if self.rocks else "mm"),
         }
@@ -192,4 +192,11 @@ def _extremes_within(piece: Piece) -> Mapping[str, float]:
     curves = {
         name: (lambda x, order=order: piece.evaluate(x, order)[order]) for order, name in enumerate(_CURVES[1:3], 1)
     }
-    return extremes(curves, 0.0, 1.0, joints=piece.joints)
+    found = extremes(curves, 0.0, 1.0, joints=piece.joints)
+    peaks = {name: max(abs(found[f"{name}_{side}"]) for side in ("max", "min")) for name in curves}
+    return {name: without_noise(value, peaks.get(name.rpartition("_")[0], 0.0)) for name, value in found.items()}
+
+
+def ends_of(piece: Piece) -> tuple[float, float]:
+    """Cam angles at which a segment begins and ends [deg], without the rounding of their conversion to rad and back."""
+    return round(math.degrees(piece.start), 12), round(math.degrees(piece.end), 12)

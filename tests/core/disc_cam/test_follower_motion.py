@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
@@ -232,3 +233,12 @@ def test_a_law_that_cannot_be_is_refused_at_its_key(segments: list[dict[str, Any
     with pytest.raises(NoSolution) as caught:
         made(*segments, *([{"to": 360, "lift": 0}] if segments[-1]["to"] != 360 else []))
     assert caught.value.key == key
+
+
+def test_a_table_of_segments_has_no_rounding_noise() -> None:
+    """160 deg as in the file, and 0 where a rise begins: neither 119.99999999999999 nor 1e-30."""
+    motion = [{"to": 120, "lift": 20, "law": "modified-sine"}, {"to": 160}, {"to": 280.1, "lift": 0}, {"to": 360}]
+    table = factory.design("loaded_cam", motion=motion).table("segments")
+    assert [str(end) for end in table["end"]] == ["120.0", "160.0", "280.1", "360.0"]
+    least = np.abs([table[name] for name in ("velocity_max", "velocity_min")])
+    assert not least[(least > 0.0) & (least < 1e-12)].size
