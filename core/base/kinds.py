@@ -212,7 +212,7 @@ KINDS: dict[str, Kind] = {
             scene="cli.views.figures.mutilated_gear_dwell:build",
             profiles="cli.export.parts:mutilated",
             cut=True,
-            parts=("wheel", "gear2"),
+            parts=("wheel", "gear2", "disc", "plate"),
         ),
         Kind(
             "two-gear-four-bar",

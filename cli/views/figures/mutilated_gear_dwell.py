@@ -69,11 +69,12 @@ def mesh_scene(design: MutilatedGearDwell) -> Scene:
     """The two gears alone in the middle of a motion, the wheel in the origin."""
     turns, center = np.array([0.5 * design.motion_turns]), np.zeros(1)
     marks = (Mark(center, pivot=True), Mark(center + design.mesh.center_distance, pivot=True))
-    return Scene(parts=tuple(_gears(design, turns, center, 1.0)), marks=marks)
+    teeth = [body for body in _gears(design, turns, center, 1.0) if body.color != _LOCK_COLOR]
+    return Scene(parts=tuple(teeth), marks=marks)
 
 
 def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: complex) -> list[Body]:
-    """The wheel, and the driven gear in a direction from it, after turns of the input."""
+    """The wheel, and the driven gear in a direction from it, after turns of the input; what locks them last."""
     # A space of the wheel and a tooth of the driven gear stand on the line of centres where a motion begins.
     line = cmath.phase(toward)
     place = line + math.pi - math.pi / design.mesh.teeth[1] + _driven(design, turns)
@@ -104,11 +105,11 @@ def _lock(design: MutilatedGearDwell, wheel: tuple[Points, Reals], driven: tuple
     ):
         whole = np.concatenate([outline * cmath.rect(1.0, TURN * k / count) for k in range(count)])
         yield Body(
-            outline=np.append(whole, whole[0]), place=place, turn=turn, repeats=count, color=style.GREEN, name=name
+            outline=np.append(whole, whole[0]), place=place, turn=turn, repeats=count, color=_LOCK_COLOR, name=name
         )
 
 
-_LOCK = "locking disc and plate"
+_LOCK, _LOCK_COLOR = "locking disc and plate", style.GREEN
 
 
 def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
