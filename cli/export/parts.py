@@ -732,12 +732,11 @@ def locking_disc(design: MutilatedGearDwell) -> Part:
 def locking_plate(design: MutilatedGearDwell) -> Part:
     """The plate of a driven gear with its concave arcs, the middle of one on the x axis."""
     lock, shafts = _lock_of(design), design.spec.shafts
-    reach = math.acos((lock.distance**2 + lock.hollow**2 - lock.plate**2) / (2.0 * lock.distance * lock.hollow))
     return Part(
         name="plate",
         title="locking plate next to the driven gear",
         stretches=(
-            _stretch("locking arc", lambda at: lock.distance - lock.hollow * np.exp(-1j * at), 0.0, reach),
+            _stretch("locking arc", lambda at: lock.distance - lock.hollow * np.exp(-1j * at), 0.0, lock.reach),
             _stretch("rim", lambda at: lock.plate * np.exp(1j * at), lock.half_arc, math.pi / lock.stops),
         ),
         closed=True,

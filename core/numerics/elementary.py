@@ -51,3 +51,22 @@ class Elementary:
 
 
 SCALARS = Elementary()
+
+
+def triangle_angle(one: float, other: float, opposite: float) -> float:
+    """Angle of a triangle between two of its sides.
+
+    4 x y sin^2(angle/2) = z^2 - (x - y)^2, which keeps its digits where the triangle is flat
+
+    Parameters
+        one, other, opposite : float - x, y, and the side z opposite to the angle; of any unit
+    Returns
+        angle : float [rad] - from 0 to pi
+    Raises
+        ValueError - where no triangle has these sides
+    Example
+        >>> round(triangle_angle(3.0, 4.0, 5.0), 15)
+        1.570796326794897
+    """
+    aside = one - other
+    return 2.0 * math.asin(math.sqrt((opposite - aside) * (opposite + aside) / (4.0 * one * other)))

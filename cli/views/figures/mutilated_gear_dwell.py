@@ -95,9 +95,8 @@ def _lock(design: MutilatedGearDwell, wheel: tuple[Points, Reals], driven: tuple
     pitch, start = TURN / groups, 0.5 * (TURN / groups + design.group_teeth * TURN / design.full_teeth)
     arcs, cuts = np.linspace(-0.5, 0.5, 181) * lock.arc, np.linspace(0.5 * lock.arc, pitch - 0.5 * lock.arc, 61)
     disc = np.concatenate([lock.radius * np.exp(1j * arcs), lock.cut * np.exp(1j * cuts)]) * cmath.rect(1.0, start)
-    tip = math.asin(lock.plate * math.sin(lock.half_arc) / lock.hollow)
     rim = np.linspace(lock.half_arc, TURN / lock.stops - lock.half_arc, 121)
-    arc = lock.distance - lock.hollow * np.exp(1j * np.linspace(tip, -tip, 61))
+    arc = lock.distance - lock.hollow * np.exp(1j * np.linspace(lock.reach, -lock.reach, 61))
     plate = np.concatenate([arc, lock.plate * np.exp(1j * rim)])
     for outline, count, (place, turn), name in (
         (disc, groups, wheel, _LOCK),

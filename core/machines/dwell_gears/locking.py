@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short
+from gearlink.core.numerics.elementary import triangle_angle
 from gearlink.core.numerics.roots import bracketed_root
 
 _TURN = 2.0 * math.pi
@@ -100,7 +101,7 @@ class Lock:
 
     def _tip(self, radius: float) -> float:
         """Angle at the driven axis from the line of centres to the plate's rim at a radius about the wheel [rad]."""
-        return _seen(self.distance, self.plate, radius)
+        return triangle_angle(self.distance, self.plate, radius)
 
     @property
     def half_arc(self) -> float:
@@ -109,6 +110,11 @@ class Lock:
         cos gamma = (a^2 + p^2 - (R + c)^2)/(2 a p)
         """
         return self._tip(self.hollow)
+
+    @property
+    def reach(self) -> float:
+        """Half of the angle of a plate's arc about the wheel's axis [rad]."""
+        return triangle_angle(self.distance, self.hollow, self.plate)
 
     @property
     def play(self) -> float:
@@ -124,7 +130,7 @@ class Lock:
 
         cos delta = (a^2 + R^2 - p^2)/(2 a R)
         """
-        return _seen(self.distance, self.radius, self.plate)
+        return triangle_angle(self.distance, self.radius, self.plate)
 
     @property
     def arm(self) -> float:
@@ -168,12 +174,3 @@ class Lock:
     def bottom(self) -> float:
         """Distance of the middle of a plate's arc from the driven axis [mm], a - R - c."""
         return self.distance - self.hollow
-
-
-def _seen(one: float, other: float, opposite: float) -> float:
-    """Angle of a triangle between two sides [rad].
-
-    4 x y sin^2(angle/2) = z^2 - (x - y)^2, which keeps its digits where the triangle is flat
-    """
-    aside = one - other
-    return 2.0 * math.asin(math.sqrt((opposite - aside) * (opposite + aside) / (4.0 * one * other)))

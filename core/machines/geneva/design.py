@@ -26,6 +26,7 @@ from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
 from gearlink.core.numerics.arrays import Mask, Points, Reals, turn_degrees, units
+from gearlink.core.numerics.elementary import triangle_angle
 from gearlink.core.parts.linkages.codes import LOCKING, PIN_ENTRY, SHAFT_CLEARANCE, STEP_RATE
 from gearlink.core.studies.movable import Movable
 
@@ -256,7 +257,7 @@ class Outlines:
             return 0.0
         if self.hollow >= distance + tip:  # the disc holds the whole circle
             return math.pi
-        return _seen(distance, tip, self.hollow)
+        return triangle_angle(distance, tip, self.hollow)
 
     @property
     def play(self) -> float | None:
@@ -272,11 +273,11 @@ class Outlines:
         if self.depth <= 0.0 or end <= _INSIDE or self.hollow >= a + self.tip:
             return None
         away = math.sqrt(a * a + radius * radius - 2.0 * drive.sign * a * radius * math.cos(end))
-        if drive.sign > 0.0 and _seen(a, self.hollow, self.tip) < end:
+        if drive.sign > 0.0 and triangle_angle(a, self.hollow, self.tip) < end:
             away = self.tip
         if self.hollow >= a + away:  # the edge of the disc comes to no side of the arc
             return None
-        return 2.0 * (_seen(a, away, self.hollow) - _seen(a, away, radius))
+        return 2.0 * (triangle_angle(a, away, self.hollow) - triangle_angle(a, away, radius))
 
     def wheel_half(self) -> list[Piece]:
         """From the bottom of a slot on the x axis to the middle between two slots.
@@ -393,11 +394,6 @@ class Outlines:
         lips = self.tip * units(np.concatenate([lip, -lip]))
         turn = (math.pi if s > 0.0 else 0.0) - s * drive.rates(f, 0)[0]
         return np.asarray(((s * drive.distance + lips * units(turn)) * units(-f)).ravel())
-
-
-def _seen(one: float, other: float, opposite: float) -> float:
-    """Angle of a triangle between two sides [rad]."""
-    return math.acos((one * one + other * other - opposite * opposite) / (2.0 * one * other))
 
 
 def _pitches(seen: Points, pitch: float) -> Reals:

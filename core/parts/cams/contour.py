@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Table, safely_below
-from gearlink.core.base.wording import short, unlike
+from gearlink.core.base.report import Table, safely_above, safely_below
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.elementary import triangle_angle
 from gearlink.core.parts.cams.follower_motion import DWELL, TURN, FollowerMotion, Piece, Shape
 
 if TYPE_CHECKING:
@@ -453,9 +454,6 @@ def contour_motion(found: Contour, reach: float | None, follower: float | Rocker
     for name, end, height, arc in stretches:
         if abs(end - place) < _NARROW:
             continue
-        if end < place:
-            message = f"the follower leaves the {name} of the profile before it reaches it"
-            raise NoSolution(message, key="profile", fix="increase follower.arm and follower.center_distance")
         piece = Piece(len(pieces) + 1, place, end, low, height - start, name)
         pieces.append(piece if arc is None else replace(piece, shape=_shape(piece, start, arc.height)))
         place, low = end, height - start
@@ -563,27 +561,32 @@ class Rocker(NamedTuple):
 
     def angle(self, size: float) -> float:
         """Psi, from the line pivot to cam axis to the arm, with the roller's centre so far from the cam axis [rad]."""
-        return self._between(self.arm, self.distance, size)
+        return triangle_angle(self.arm, self.distance, size)
 
     def ahead(self, size: float) -> float:
         """Angle at the cam axis between pivot and roller's centre [rad]."""
-        return self._between(self.distance, size, self.arm)
+        return triangle_angle(self.distance, size, self.arm)
 
-    def _between(self, one: float, other: float, opposite: float) -> float:
-        cosine = (one * one + other * other - opposite * opposite) / (2.0 * one * other)
-        if not -1.0 < cosine < 1.0:
-            low, high = abs(self.arm - self.distance), self.arm + self.distance
-            raise NoSolution(
-                f"an arm of {short(self.arm)} mm, {short(self.distance)} mm from the cam axis, reaches the radii "
-                f"from {short(low)} to {short(high)} mm, and not the pitch curve of the profile",
-                key="follower.center_distance",
-                fix="change follower.arm or follower.center_distance",
-            )
-        return math.acos(cosine)
+    def require_reach(self, least: float, most: float) -> None:
+        """Refuse a pitch curve whose radii, from least to most [mm], the roller's centre does not reach."""
+        low, high = abs(self.arm - self.distance), self.arm + self.distance
+        if low < least and most < high:
+            return
+        nearest, farthest = max(abs(self.arm - least), abs(self.arm - most)), self.arm + least
+        fix = f"set follower.center_distance from {within(nearest, farthest, 'mm')}"
+        if nearest >= farthest:
+            fix = f"set follower.arm above {safely_above(0.5 * (most - least))} mm"
+        raise NoSolution(
+            f"radii of the pitch curve: {short(least)} to {short(most)} mm (limit {short(low)} to {short(high)} mm, "
+            f"which an arm of {short(self.arm)} mm reaches, {short(self.distance)} mm from the cam axis)",
+            key="follower.center_distance",
+            fix=fix,
+        )
 
 
 def _on_rocker(found: Contour, reach: float, rocker: Rocker) -> _Course:
     whole, prime, size = found.whole, found.base + reach, found.distance + found.nose + reach
+    rocker.require_reach(prime, size)
     start, side = -rocker.side * rocker.ahead(prime), rocker.side
 
     def passed(size: float, direction: float) -> tuple[float, float]:
@@ -622,14 +625,15 @@ def _require_free(course: _Course) -> None:
     )
     for arc, (low, high), heights in stretches:
         assert isinstance(arc, _OnArc | _OnLine), "of a rocker"
-        if high - low < _NARROW:
+        if abs(high - low) < _NARROW:
             continue
         inside = [low + turned for each in arc.extremes() if (turned := (each - low) % TURN) < high - low]
-        free = bool(np.abs(arc.cosine(np.array([low, *inside, high]))).max() < 1.0 - _JAMS)
+        free = high > low and bool(np.abs(arc.cosine(np.array([low, *inside, high]))).max() < 1.0 - _JAMS)
         # Where the centre comes to an end on the other side of the normal, the cam has turned back meanwhile.
         if not free or np.abs(arc.height(np.array([low, high]), 0)[0] - heights).max() > _OTHER_SIDE:
+            between = " and ".join(short(math.degrees(end)) for end in sorted((low, high)))
             raise NoSolution(
-                "the pressure angle reaches 90 deg: the follower jams",
+                f"the pressure angle reaches 90 deg between the cam angles {between} deg: the follower jams",
                 key="profile",
                 fix="change follower.center_distance or follower.arm",
             )

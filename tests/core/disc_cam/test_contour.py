@@ -441,13 +441,24 @@ def test_a_follower_jams_where_its_pressure_angle_reaches_90_deg() -> None:
 )
 def test_a_rocker_that_jams_is_refused(found: Contour, reach: float, rocker: Rocker) -> None:
     """With the pivot close to the cam, of an arm that reaches across it: its normal passes the pivot."""
-    with pytest.raises(NoSolution, match="the pressure angle reaches 90 deg: the follower jams"):
+    with pytest.raises(
+        NoSolution, match=r"reaches 90 deg between the cam angles [0-9.]+ and [0-9.]+ deg: the follower jams"
+    ):
         contour_motion(found, reach, rocker)
 
 
 def test_a_rocker_that_does_not_reach_the_cam_is_refused() -> None:
-    with pytest.raises(NoSolution, match="reaches the radii from 70 to 130 mm, and not the pitch curve"):
-        contour_motion(sizes(**ARCS), 10.0, Rocker(30.0, 100.0, 1))
+    """The distances that the fix names are reached, at both ends; an arm too short for any names the least."""
+    found = sizes(**ARCS)
+    with pytest.raises(NoSolution, match=r"40 to 60 mm \(limit 70 to 130 mm, which an arm of 30 mm reaches") as told:
+        contour_motion(found, 10.0, Rocker(30.0, 100.0, 1))
+    low, high = (float(word) for word in str(told.value.fix).split() if word[0].isdigit())
+    assert (low, high) == (30.0, 70.0)
+    for distance in (low + 0.01, high - 0.01):
+        Rocker(30.0, distance, 1).require_reach(40.0, 60.0)
+    with pytest.raises(NoSolution) as told:
+        Rocker(8.0, 50.0, 1).require_reach(40.0, 60.0)
+    assert told.value.fix == "set follower.arm above 10 mm"
 
 
 @pytest.mark.slow
