@@ -15,15 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlink.cli.export.options import MOST_TOLERANCE, CurveForm
-from gearlink.cli.export.sampling import (
-    MOST_POINTS,
-    Points,
-    Reals,
-    Sampled,
-    Stretch,
-    TooFine,
-    sample,
-)
+from gearlink.cli.export.sampling import MOST_POINTS, Sampled, Stretch, TooFine, sample
+from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.version import VERSION
 
 # Ends of stretches that lie nearer to each other [mm] are one vertex; the gap counts as error.

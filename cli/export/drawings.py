@@ -18,9 +18,9 @@ import numpy as np
 
 from gearlink.cli.export.contour import Contour, Line, describe
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.export.sampling import Points, Reals
 from gearlink.cli.quiet import without_notes
 from gearlink.core.base.errors import GearlinkError
+from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

@@ -15,22 +15,24 @@ import numpy as np
 from gearlink.cli.export import sizes
 from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.options import PATH
-from gearlink.cli.export.sampling import Points, Reals, Stretch
+from gearlink.cli.export.sampling import Stretch
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.mechanism.vectors import place_of, rates_of
+from gearlink.core.numerics.arrays import Points, Reals, unit_vector
+from gearlink.core.numerics.curves import Curve, arc, straight
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.checks import undercut_checks
 from gearlink.core.parts.cams.disc_cam import DiscCam
 from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.drawing import drawing_table, lines_of, rack_drawing
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.outline.rack_profile import RackProfile, straight
+from gearlink.core.parts.gears.outline.rack_profile import RackProfile
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
-from gearlink.core.parts.gears.outline.tooth_profile import Curve, ToothProfile
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.parts.gears.rack import RackMesh
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
@@ -666,7 +668,7 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
     whole = list(_half(profile))
     ends = _cut_down(whole, cut, math.pi / design.full_teeth)
     root = profile.root_radius
-    stretches = [_stretch("gap", lambda angle: root * np.exp(1j * angle), 0.0, half_gap)]
+    stretches = [_stretch("gap", arc(root), 0.0, half_gap)]
     for k in range(math.ceil(0.5 * count)):
         pieces, start = ends if k in (0, count - 1) else whole, half_gap + k * step
         stretches += [_turned(*piece, start) for piece in pieces]
@@ -711,9 +713,9 @@ def locking_disc(design: MutilatedGearDwell) -> Part:
         name="disc",
         title="locking disc next to the wheel",
         stretches=(
-            _stretch("locking arc", lambda at: lock.radius * np.exp(1j * at), 0.0, end),
+            _stretch("locking arc", arc(lock.radius), 0.0, end),
             _stretch("edge", straight(lock.radius * edge, lock.cut * edge), 0.0, 1.0),
-            _stretch("cut-out", lambda at: lock.cut * np.exp(1j * at), end, middle),
+            _stretch("cut-out", arc(lock.cut), end, middle),
         ),
         closed=True,
         teeth=groups,
@@ -736,8 +738,8 @@ def locking_plate(design: MutilatedGearDwell) -> Part:
         name="plate",
         title="locking plate next to the driven gear",
         stretches=(
-            _stretch("locking arc", lambda at: lock.distance - lock.hollow * np.exp(-1j * at), 0.0, lock.reach),
-            _stretch("rim", lambda at: lock.plate * np.exp(1j * at), lock.half_arc, math.pi / lock.stops),
+            _stretch("locking arc", lambda at: lock.distance - lock.hollow * unit_vector(-at), 0.0, lock.reach),
+            _stretch("rim", arc(lock.plate), lock.half_arc, math.pi / lock.stops),
         ),
         closed=True,
         teeth=lock.stops,
@@ -791,7 +793,7 @@ def _cut_down(pieces: list[_Piece], radius: float, middle: float) -> list[_Piece
             start = cmath.phase(complex(curve(np.array([high]))[0]))
         break
     if start < middle:
-        kept.append(("cut", lambda angle: radius * np.exp(1j * angle), start, middle))
+        kept.append(("cut", arc(radius), start, middle))
     return kept
 
 
@@ -926,8 +928,7 @@ def _round_corner(cam: DiscCam, before: Stretch, after: Stretch) -> list[Stretch
     start, turn = cmath.phase(left[0] - center), cmath.phase((right[0] - center) / (left[0] - center))
 
     def points(way: Reals) -> Points:
-        arc: Points = center + abs(cam.roller_radius) * np.exp(1j * (start + turn * way))
-        return arc[None, :]
+        return arc(abs(cam.roller_radius), center)(start + turn * way)[None, :]
 
     def extra(way: Reals) -> Reals:
         return np.stack([np.full_like(way, degrees), np.full_like(way, math.nan), np.full_like(way, math.nan)])

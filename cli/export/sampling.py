@@ -16,9 +16,7 @@ from numpy.typing import NDArray
 
 from gearlink.cli.export.options import CurveForm
 from gearlink.core.base.errors import GearlinkError
-
-Points = NDArray[np.complex128]
-Reals = NDArray[np.float64]
+from gearlink.core.numerics.arrays import Points, Reals
 
 MOST_POINTS = 100_000
 """Points of a file at most, of all its curves; a gear of a thousand teeth has 40,000 for chords within 0.001 module."""

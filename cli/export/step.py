@@ -15,9 +15,9 @@ import numpy as np
 
 from gearlink.cli.export.contour import Circle, Contour, describe
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.export.sampling import Points, Reals
 from gearlink.cli.files import unfinished
 from gearlink.core.base.errors import GearlinkError
+from gearlink.core.numerics.arrays import Points, Reals
 
 _ARRAYS = {
     "gp_Pnt": ("TColgp", "TColgp_Array{}OfPnt"),

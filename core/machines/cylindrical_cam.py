@@ -22,7 +22,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, standing
-from gearlink.core.numerics.arrays import Reals, turn_degrees
+from gearlink.core.numerics.arrays import Reals, turn_degrees, unit_vector
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
 from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
@@ -124,7 +124,7 @@ class Drum:
         s, s1 = self.motion.evaluate(phi, 1)
         h = np.sqrt(x * x + s1 * s1)
         across, along = side * self.roller_radius * s1 / h, s + side * self.roller_radius * self.sense * x / h
-        turned = (x + 1j * across) * np.exp(-1j * self.sense * phi)
+        turned = (x + 1j * across) * unit_vector(-self.sense * phi)
         return turned.real, turned.imag, along
 
     def developed(self, x: float, side: int, phi: Reals) -> tuple[Reals, Reals]:

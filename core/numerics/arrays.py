@@ -20,6 +20,12 @@ Points: TypeAlias = NDArray[np.complex128]
 Mask: TypeAlias = NDArray[np.bool_]
 
 
+def unit_vector(angle: Reals) -> Points:
+    """The vectors of length 1 in directions from the x axis [rad]: exp(i angle)."""
+    found: Points = np.exp(1j * angle)
+    return found
+
+
 def largest(values: NDArray[Any]) -> Any:
     """The largest value, as Python's own; of rows an array of that of each.
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Generator, Iterable, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -264,8 +264,8 @@ def least_of(found: Extreme, values: Reals, places: Reals) -> Extreme:
         np.hstack([np.broadcast_to(np.reshape(one, (-1, 1)), (rows, 1)), np.broadcast_to(more, (rows, more.shape[1]))])
         for one, more in zip(found, (values, places), strict=True)
     )
-    least = every.min(axis=1, keepdims=True)
-    place = np.where(every == least, seats, np.inf).min(axis=1, keepdims=True)
+    least: Any = every.min(axis=1, keepdims=True)
+    place: Any = np.where(every == least, seats, np.inf).min(axis=1, keepdims=True)
     return Extreme(least, place) if rows > 1 else Extreme(float(least[0, 0]), float(place[0, 0]))
 
 

@@ -36,6 +36,7 @@ from gearlink.cli.views.scenes.scene import (
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell, driven
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
+from gearlink.core.numerics.arrays import unit_vector
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, tooth_space
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
 
@@ -134,7 +135,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     try:
         space = tooth_space(ToothProfile.of(mesh, 0), 0.012 * mesh.module)
     except NoSolution:
-        space = mesh.tip_radius[0] * np.exp(1j * np.linspace(-0.5 * step, 0.5 * step, 5))
+        space = mesh.tip_radius[0] * unit_vector(np.linspace(-0.5 * step, 0.5 * step, 5))
     half = space[np.angle(space) >= 0.0]
     tooth = np.concatenate([half, half[::-1].conj() * np.exp(1j * step)])
     reach, end = np.abs(tooth), end_tooth_radius(mesh)

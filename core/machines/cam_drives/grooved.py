@@ -169,7 +169,7 @@ class Groove:
     def star_shaped(self) -> tuple[bool, bool]:
         """Whether the polar angle of inner and outer wall runs one way: without a cusp none then crosses itself."""
         closed = np.radians(turn_degrees(2 * _SAMPLES))
-        found = []
+        found: list[Any] = []
         for wall in self.walls(closed):
             turn = self.sense * (np.conj(wall) * np.roll(wall, -1, axis=-1)).imag
             found.append(np.all(turn > 0.0, axis=-1))

@@ -23,7 +23,7 @@ from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Place
 from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign, found_forces
-from gearlink.core.numerics.arrays import Points, Reals, median, turn_degrees
+from gearlink.core.numerics.arrays import Points, Reals, median, turn_degrees, unit_vector
 from gearlink.core.numerics.extremes import Extreme, greatest, least_convex_radius, maximum_over, minimum_over
 from gearlink.core.parts.cams.disc_cam import DiscCam
 from gearlink.core.parts.cams.follower_motion import Stroke
@@ -149,7 +149,7 @@ class MeasuredCam:
     def contact(self, t: Reals) -> Contact:
         """R = C + r_g N with N = -i T, T = C'/|C'|, T' = i w T."""
         rho, d1, d2, d3 = self.series.at(t, 3)
-        e = np.exp(1j * t)
+        e = unit_vector(t)
         c1 = (d1 + 1j * rho) * e
         c2 = (d2 + 2j * d1 - rho) * e
         c3 = (d3 + 3j * d2 - 3.0 * d1 - 1j * rho) * e
@@ -228,7 +228,7 @@ class MeasuredCam:
         angle = np.angle(pivot) + self.side * np.arccos(c)
         first = -self.side * c1 / root
         second = -self.side * (c2 / root + c * c1 * c1 / root**3)
-        arm = l * np.exp(1j * angle)
+        arm = l * unit_vector(angle)
         place = [pivot + arm, 1j * first * arm, (1j * second - first * first) * arm]
         return (angle, first, second), place, 1j * arm / l
 

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.results import cached_property
-from gearlink.core.numerics.arrays import Points, Reals, product
+from gearlink.core.numerics.arrays import Points, Reals, product, unit_vector
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.parts.linkages.dyad import close_dyad, require_lengths, require_span, worst_transmission
@@ -106,10 +106,8 @@ class FunctionFiveBar:
 
     def _ends(self, phi: Reals) -> tuple[Points, Points, Points]:
         """The vectors of crank and coupler, and the pin D [mm]; NaN where the five-bar opens."""
-        crank, coupler = (
-            self.input * np.exp(1j * phi),
-            self.coupler * np.exp(1j * (self.phase + self.coupler_ratio * phi)),
-        )
+        crank = self.input * unit_vector(phi)
+        coupler = self.coupler * unit_vector(self.phase + self.coupler_ratio * phi)
         joint = crank + coupler
         way = self.frame - joint
         n = np.abs(way)

@@ -8,7 +8,7 @@ import numpy as np
 
 from gearlink.core.machines.five_bar.family import near_places
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.numerics.arrays import Points, Reals, product
+from gearlink.core.numerics.arrays import Points, Reals, product, unit_vector
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.together import kept_last
 
@@ -35,8 +35,8 @@ def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
 def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points]:
     """B, D, unit vectors of coupler (B->C) and follower (D->C)."""
     b, c = bar.coupler, bar.follower
-    start = bar.input * np.exp(1j * phi)
-    end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
+    start = bar.input * unit_vector(phi)
+    end = bar.frame + bar.output * unit_vector(bar.phase + float(bar.ratio) * phi)
     way = end - start
     n = np.abs(way)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -94,9 +94,8 @@ def _windings(bar: PathFiveBar, left: Reals, right: Reals) -> Reals:
 
 def _way(bar: PathFiveBar, phi: Reals) -> Points:
     """The vector BD."""
-    end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
-    way: Points = end - bar.input * np.exp(1j * phi)
-    return way
+    end = bar.frame + bar.output * unit_vector(bar.phase + float(bar.ratio) * phi)
+    return end - bar.input * unit_vector(phi)
 
 
 def extent(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:

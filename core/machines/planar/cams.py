@@ -18,6 +18,7 @@ from gearlink.core.base.errors import NoSolution, at_key, in_section
 from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.wiring import FRAME
+from gearlink.core.numerics.arrays import unit_vector
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams.checks import (
     flat_undercut_check,
@@ -516,7 +517,7 @@ class CamJoint:
         found = self.profile
         turned = cmath.exp(1j * self.sense * phase)
         if not isinstance(found, FlatCam):
-            roller = self.point + found.roller_radius * np.exp(1j * phi[::8])
+            roller = self.point + found.roller_radius * unit_vector(phi[::8])
             return self.bore + turned * found.points(phi)[1], roller
         along = cmath.exp(1j * math.radians(self.given.face or 0.0))
         reach = (along.conjugate() * (self._seen(found.touch(phi).point, phi) - self.point)).real

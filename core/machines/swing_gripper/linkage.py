@@ -22,7 +22,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.mechanism.rates import Turn
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, unit_vector
 from gearlink.core.numerics.extremes import Extreme, extremes_over, least_of
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.linkages.fourbar.loop import Reading, in_motion
@@ -198,8 +198,8 @@ class GripperLinkage:
 
         def ends(swing: Reals) -> tuple[Points, Points]:
             motion = self.at((swing,))
-            c = self.input_pivot + self.input * np.exp(1j * motion.input.value)
-            return c, self.output_pivot + self.output * np.exp(1j * motion.output.value)
+            c = self.input_pivot + self.input * unit_vector(motion.input.value)
+            return c, self.output_pivot + self.output * unit_vector(motion.output.value)
 
         both = kept_last(ends)
         wanted = [(lambda swing, place=place: beside_line(place, *both(swing)), False) for place in places]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, safely_above
+from gearlink.core.numerics.arrays import unit_vector
 from gearlink.core.numerics.extremes import minimum_over
 from gearlink.core.parts.cams.checks import over_axis_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
@@ -214,7 +215,7 @@ def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
     """
 
     def distance(phi: Reals) -> Reals:
-        pin = drive.crank * np.exp(1j * (phi + drive.middle_angle))
+        pin = drive.crank * unit_vector(phi + drive.middle_angle)
         end = np.asarray(drive.depth(phi)[0] - 1j * drive.offset, dtype=np.complex128)
         return beside_line(place, pin, end)
 

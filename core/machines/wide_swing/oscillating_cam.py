@@ -31,7 +31,7 @@ from gearlink.core.machines.wide_swing.cam import (
     too_small_swing,
 )
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
-from gearlink.core.numerics.arrays import Points, Reals, number_of
+from gearlink.core.numerics.arrays import Points, Reals, number_of, unit_vector
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.roots import bracketed_root
@@ -498,7 +498,7 @@ def way_home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Home:
     """
     bar, span = cam.drive.linkage, cam.drive.crank_span
     found = solve(bar, cam.drive.crank_angles[0] + turned, order)
-    arm = bar.rocker * np.exp(1j * found.rocker_angle)
+    arm = bar.rocker * unit_vector(found.rocker_angle)
     end = bar.frame + arm
     speed = found.rocker_velocity
     rate = 1j * speed * arm / end

@@ -21,7 +21,7 @@ import numpy as np
 from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam, mirrored
 from gearlink.core.machines.wide_swing.oscillating_cam import Home, OscillatingCam, crank_angle, way_home
 from gearlink.core.mechanism.rates import Turn
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, unit_vector
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
@@ -61,8 +61,7 @@ def dwell_arc(cam: AnyCam) -> Points:
     start, stop = (float(np.angle(z / -middle)) for z in (last, first))
     share: Reals = np.linspace(0.0, 1.0, 181)
     radius = abs(last) ** (1.0 - share) * abs(first) ** share
-    result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (stop - start) * share))
-    return result
+    return -middle / abs(middle) * radius * unit_vector(start + (stop - start) * share)
 
 
 # A stroke of a wide-swing mechanism: how the rocker turns in it, and where its roller stands on the cam

@@ -19,12 +19,12 @@ import numpy as np
 from gearlink.cli.export.contour import Circle, Contour, Part, contour
 from gearlink.cli.export.options import CurveForm, drawing_of
 from gearlink.cli.export.parts import makers
-from gearlink.cli.export.sampling import Points, Reals
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.gears import gear_text, ruled
 from gearlink.cli.views.figures.sheets import cam_sheets, dimensions, paper, true_size
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.kinds import KINDS
+from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

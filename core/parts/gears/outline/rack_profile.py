@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,6 +18,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.curves import Curve, straight
 from gearlink.core.parts.gears.outline.mesh_geometry import contact_points
 from gearlink.core.parts.gears.tooth.tools import RackTool, rack_tip_width
 
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.rack import RackMesh
 
 
-Curve = Callable[[Reals], Points]
 Piece = tuple[Curve, float, float]
 
 
@@ -151,16 +150,6 @@ class RackProfile:
         low = self.root - back
         corners = np.array([complex(line[-1].real, low), complex(line[0].real, low)])
         return np.concatenate([line, corners, line[:1]])
-
-
-def straight(start: complex, end: complex) -> Curve:
-    """A straight line over 0 to 1, whose ends are these points to the bit."""
-
-    def points(share: Reals) -> Points:
-        between: Points = (1.0 - share) * start + share * end
-        return between
-
-    return points
 
 
 @dataclass(frozen=True)

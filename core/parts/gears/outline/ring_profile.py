@@ -7,18 +7,16 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, unit_vector
+from gearlink.core.numerics.curves import Curve, arc
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute, roll_at
-
-Curve = Callable[[Reals], Points]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,8 +90,7 @@ class RingProfile:
     def flank(self, back: Reals) -> Points:
         """The involute over its roll angle, counted backwards: from the root towards the tip."""
         half = math.pi / self.teeth
-        out: Points = self.base * (1.0 - 1j * back) * np.exp(1j * (half - self.at_base + back))
-        return out
+        return self.base * (1.0 - 1j * back) * unit_vector(half - self.at_base + back)
 
     def pieces(self) -> list[tuple[str, Curve, float, float]]:
         """Names and curves from the middle of the space to the middle of the tooth, with their parameters' ranges."""
@@ -104,10 +101,10 @@ class RingProfile:
             fillet = [("fillet", self.fillet, *self.shaped.turns)]
             at_root = cmath.phase(self.shaped.fillet(self.shaped.turns[0]))
         return [
-            ("root circle", _arc(self.deepest), 0.0, at_root),
+            ("root circle", arc(self.deepest), 0.0, at_root),
             *fillet,
             ("involute", self.flank, -high, -self.tip_roll),
-            ("tip circle", _arc(self.tip), self._beside(self.tip_roll), math.pi / self.teeth),
+            ("tip circle", arc(self.tip), self._beside(self.tip_roll), math.pi / self.teeth),
         ]
 
     def fillet(self, turn: Reals) -> Points:
@@ -128,7 +125,3 @@ class RingProfile:
         turns = np.exp(1j * math.pi / self.teeth * (2.0 * np.arange(self.teeth) + 1.0))
         ring: Points = (turns[:, None] * space[None, :-1]).ravel()
         return np.concatenate([ring, ring[:1]])
-
-
-def _arc(radius: float) -> Curve:
-    return lambda angle: radius * np.exp(1j * angle)

@@ -7,7 +7,6 @@ The root fillet is that of `root_fillet`, over the direction b of the normal in 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,13 +15,12 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, unit_vector
+from gearlink.core.numerics.curves import Curve, arc
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, roll_at
 from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
 from gearlink.core.parts.gears.tooth.tools import RackTool, full_rounding
-
-Curve = Callable[[Reals], Points]
 
 _LEAST_CHORD_ERROR = 1e-7  # module; below it the points of large gears would be distinguished by rounding alone
 
@@ -214,11 +212,6 @@ class ToothProfile:
 
     # Curves [mm], each over an array of its parameter
 
-    def root_arc(self, angle: Reals) -> Points:
-        """The root circle, over the polar angle."""
-        arc: Points = self.root_radius * np.exp(1j * angle)
-        return arc
-
     def trochoid(self, normal: Reals) -> Points:
         """The root's rounding, over the direction b of the normal, then the path of a protuberance's corner."""
         q, rho = self.tool_addendum - self.tool_rounding - self.shift, self.tool_rounding
@@ -228,8 +221,7 @@ class ToothProfile:
         across = self._across(across, self._r - below, normal - held)
         shifted = self._u + rho * np.sin(held) / math.cos(self.helix_angle) - across
         points = self._r - below + 1j * across
-        rounded: Points = self.module * points * np.exp(1j * shifted / self._r)
-        return rounded
+        return self.module * points * unit_vector(shifted / self._r)
 
     def _across(self, across: Reals, above: Reals, rolled: Reals) -> Reals:
         """`RackCutRoot.corner_path` over arrays."""
@@ -243,23 +235,17 @@ class ToothProfile:
 
         z(t) = r_b (1 - i t) exp(i (angle at the base circle + t))
         """
-        points: Points = self.base_radius * (1.0 - 1j * roll) * np.exp(1j * (self._at_base + roll))
-        return points
-
-    def tip_arc(self, angle: Reals) -> Points:
-        """The tip circle, over the polar angle."""
-        arc: Points = self.outer_radius * np.exp(1j * angle)
-        return arc
+        return self.base_radius * (1.0 - 1j * roll) * unit_vector(self._at_base + roll)
 
     def pieces(self) -> list[tuple[Curve, float, float]]:
         """The curves from the middle of the space to the middle of the tooth, with the range of their parameters."""
         low, high = roll_at(self._form / self._base), roll_at(self._top / self._base)
         tooth_edge = self._at_base + high - math.atan(high)
         return [
-            (self.root_arc, 0.0, self._u / self._r),
+            (arc(self.root_radius), 0.0, self._u / self._r),
             (self.trochoid, 0.0, self._cut.end_normal),
             (self.flank, low, high),
-            (self.tip_arc, tooth_edge, math.pi / self.teeth),
+            (arc(self.outer_radius), tooth_edge, math.pi / self.teeth),
         ]
 
 

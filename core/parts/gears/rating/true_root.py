@@ -33,15 +33,16 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.curves import arc
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.parts.gears.tooth.involute import involute, roll_at
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.numerics.curves import Curve
     from gearlink.core.parts.gears.data import GearData
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
-    Curve = Callable[[Reals], Points]
 
 RIM = 5.0
 """Modules of the rim below the root circle, where the file names none."""
@@ -223,7 +224,7 @@ class RootContour:
         beyond = _between(float(patch[-1]), roll, (0.0, 0.5, 1.0))
         first, last = np.angle(self.flank(roll) - center), np.angle(self._sign * center)
         tip = float(np.angle(center))
-        corner = _arc_about(center, radius)
+        corner = arc(radius, center)
         over = _turned(first, last, clockwise=self.ring)
         return [
             *self._rim(),
@@ -232,7 +233,7 @@ class RootContour:
             ("load", lambda at: stand(self.flank(at)), list(patch)),
             ("flank", lambda at: stand(self.flank(at)), beyond),
             ("corner", lambda at: stand(corner(at)), _between(*over, (0.0, 0.5, 1.0))),
-            ("tip", lambda at: stand(_circle(self.tip)(at)), _between(tip, math.pi / self.teeth, (0.0, 0.5, 1.0))),
+            ("tip", lambda at: stand(arc(self.tip)(at)), _between(tip, math.pi / self.teeth, (0.0, 0.5, 1.0))),
         ]
 
     def _rim(self) -> list[tuple[str, Curve, Sequence[float]]]:
@@ -253,28 +254,20 @@ class RootContour:
         at_root = float(np.angle(self.fillet(np.asarray([self.ends[0]]))[0]))
         land = _between(at_root, edge + turns[1], _LAND)
         return [
-            ("far", lambda at: stand(_circle(far)(at)), _between(half, edge + turns[0], (0.0, 0.25, 0.5, 0.75, 1.0))),
+            ("far", lambda at: stand(arc(far)(at)), _between(half, edge + turns[0], (0.0, 0.25, 0.5, 0.75, 1.0))),
             (
                 "side",
-                lambda at: stand(_arc_about(centers[0], rounding)(at)),
+                lambda at: stand(arc(rounding, centers[0])(at)),
                 _halved(_turned(inward, to_side, clockwise=self.ring)),
             ),
             ("side", lambda at: stand(at * side), _between(ends[0], ends[1], (0.0, 0.33, 0.67, 1.0))),
             (
                 "side",
-                lambda at: stand(_arc_about(centers[1], rounding)(at)),
+                lambda at: stand(arc(rounding, centers[1])(at)),
                 _halved(_turned(to_side, outward, clockwise=self.ring)),
             ),
-            ("land", lambda at: stand(_circle(self.root)(at)), land[::-1]),
+            ("land", lambda at: stand(arc(self.root)(at)), land[::-1]),
         ]
-
-
-def _circle(radius: float) -> Curve:
-    return _arc_about(0.0, radius)
-
-
-def _arc_about(center: complex, radius: float) -> Curve:
-    return lambda angle: center + radius * np.exp(1j * angle)
 
 
 def _between(low: float, high: float, shares: Sequence[float]) -> list[float]:
