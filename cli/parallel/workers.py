@@ -49,15 +49,21 @@ def workers(count: int) -> Iterator[Executor]:
     try:
         yield pool
     except BaseException:
+        manager: Any = pool._executor_manager_thread
         # What they are at is lost; waiting for it would make the user wait.
         pool.shutdown(wait=False, cancel_futures=True)
         _end(active_children())
         # The thread that reads results would wait for ever for the rest of one that a worker was writing: its end comes
         # when nobody can write any more, this process included.
         results._writer.close()  # type: ignore[attr-defined]
+        if manager is not None:
+            manager.join()
         raise
     finally:
         pool.shutdown()
+        # No thread is left: a process that is forked while one runs may wait for ever for a lock that it held.
+        if pool.watch is not None:
+            pool.watch.join()
 
 
 def _close_by_one(connection: Connection) -> None:
@@ -78,16 +84,16 @@ def _close_by_one(connection: Connection) -> None:
 class _Workers(ProcessPoolExecutor):
     """Processes of which the first to die breaks the executor, also one that was writing its result."""
 
-    _watched = False
+    watch: threading.Thread | None = None
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Schedule a call, as any executor does; the first starts the processes, which are watched from then on."""
         future = super().submit(fn, *args, **kwargs)
-        if not self._watched:
-            self._watched = True
+        if self.watch is None:
             results: Any = self._result_queue
             watched = (self._processes, results._writer)
-            threading.Thread(target=_end_with_first_dead, args=watched, daemon=True).start()
+            self.watch = threading.Thread(target=_end_with_first_dead, args=watched, daemon=True)
+            self.watch.start()
         return future
 
 

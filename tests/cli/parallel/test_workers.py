@@ -258,3 +258,15 @@ def test_this_process_collects_as_python_does_while_it_computes(monkeypatch: pyt
     watch = Watch(2, 1, lambda _: None, quiet=True)
     assert shares._in_processes(lambda _: gc.get_threshold(), [1, 2], 1, watch) == [(701, 11, 9)] * 2
     assert gc.get_threshold() == before
+
+
+def test_no_thread_of_theirs_is_left_when_they_have_ended() -> None:
+    """A process that is forked while one runs may wait for ever for a lock that it held."""
+    before = set(threading.enumerate())
+    for _ in range(5):
+        with workers(2) as pool:
+            assert pool.submit(abs, -1).result() == 1
+        assert set(threading.enumerate()) == before
+        with pytest.raises(ZeroDivisionError), workers(2) as pool:
+            pool.submit(divmod, 1, 0).result()
+        assert set(threading.enumerate()) == before
