@@ -7,10 +7,9 @@ import gc
 import io
 import itertools
 import json
-import math
 import os
 import signal
-import time
+import sys
 from collections.abc import Generator
 from dataclasses import dataclass
 from functools import wraps
@@ -125,11 +124,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 # A test that waits for ever
 
-REARMED = 20.0
-"""The watch over the tests is set anew with the first test that begins so many seconds later: a timer thread for each
-test took a millisecond of each, of most of them a third."""
-
-
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--patience", type=float, help="seconds after which a test that does not end is shown and ends all"
@@ -137,19 +131,27 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 class Watch:
-    """Shows the stacks of all threads and ends the run when a test takes longer than `patience` seconds."""
+    """Shows the stacks of all threads and ends the run when a test takes longer than `patience` seconds.
+
+    By a timer of the system where there is one: a thread would be in the way of every process that the tests fork."""
 
     def __init__(self, patience: float, stderr: int) -> None:
-        self.patience, self.stderr, self.set = patience, stderr, -math.inf
+        self.patience, self.stderr = patience, stderr
+        if sys.platform != "win32":
+            faulthandler.register(signal.SIGALRM, file=stderr, chain=True)
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtest_logstart(self) -> None:
-        if (now := time.monotonic()) > self.set + REARMED:
-            self.set = now
-            faulthandler.dump_traceback_later(self.patience + REARMED, exit=True, file=self.stderr)
+        if sys.platform != "win32":
+            signal.setitimer(signal.ITIMER_REAL, self.patience)
+        else:
+            faulthandler.dump_traceback_later(self.patience, exit=True, file=self.stderr)
 
     def pytest_unconfigure(self) -> None:
-        faulthandler.cancel_dump_traceback_later()
+        if sys.platform != "win32":
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+        else:
+            faulthandler.cancel_dump_traceback_later()
 
 
 def pytest_configure(config: pytest.Config) -> None:
