@@ -124,6 +124,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 # A test that waits for ever
 
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--patience", type=float, help="seconds after which a test that does not end is shown and ends all"

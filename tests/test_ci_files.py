@@ -38,7 +38,7 @@ def _pythons(job: Any) -> list[str]:
 
 def test_the_workflow_runs_the_checks_on_every_python() -> None:
     job = _read(".github/workflows/check.yml")["jobs"]["check"]
-    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13", "3.14"]
+    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13", "3.14", "3.15"]
     assert _run(job) == ["make check"]
     systems = _read(".github/workflows/check.yml")["jobs"]["systems"]
     assert systems["strategy"]["matrix"]["system"] == ["windows-latest", "macos-latest"]
@@ -60,7 +60,7 @@ def test_the_newest_versions_are_tried_every_week() -> None:
     assert len(when["cron"].split()) == 5
     assert when["cron"].split()[2:] == ["*", "*", "1"]
     job = workflow["jobs"]["newest"]
-    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.14"]
+    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.15"]
     assert _run(job) == ["make test-newest"]
 
 

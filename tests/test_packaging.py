@@ -54,7 +54,7 @@ def test_every_library_has_a_least_version() -> None:
 # The lock files
 
 LOCKS = ("development", "program")
-PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+PYTHONS = ("3.11", "3.12", "3.13", "3.14", "3.15")
 
 
 def locked(name: str) -> list[Requirement]:
