@@ -301,9 +301,9 @@ _BOTH_ENDS = " min, max"
 
 def _symbols(name: str) -> Iterator[Topic]:
     """The quantities that a symbol stands for in tables and formulas."""
-    from gearlink.core.base.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import entries
 
-    for quantity, entry in TERMS.items():
+    for quantity, _, entry in entries():
         written = (entry.symbol, entry.symbol.removesuffix(_BOTH_ENDS), *entry.symbol.split(", "))
         if name and name in written and name != quantity:
             topic = _quantity(quantity)
@@ -312,9 +312,9 @@ def _symbols(name: str) -> Iterator[Topic]:
 
 def symbols() -> Iterator[tuple[str, str]]:
     """Symbols that are one word, each with the quantity that it stands for."""
-    from gearlink.core.base.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import entries
 
-    for quantity, entry in TERMS.items():
+    for quantity, _, entry in entries():
         yield from ((symbol, quantity) for symbol in entry.symbol.split(", ") if symbol and " " not in symbol)
 
 
@@ -429,7 +429,7 @@ def _kinds_with_checks(checks: tuple[str, ...]) -> str:
 
 
 def _quantity(name: str) -> Topic:
-    from gearlink.core.base.nomenclature import ALIASES, term
+    from gearlink.core.base.nomenclature import ALIASES, entries, term
 
     entry = term(name)
     paragraphs = {
@@ -441,6 +441,9 @@ def _quantity(name: str) -> Topic:
         "Source": entry.source,
         "Given by": "; ".join(index().quantities[name]),
     }
+    for each, kind, own in entries():
+        if kind and each == name:
+            paragraphs[f"In {kind}"] = f"{own.words}{f' ({own.symbol})' if own.symbol else ''}"
     return Topic("quantity", name, entry.words, {label: words for label, words in paragraphs.items() if words})
 
 
@@ -575,9 +578,9 @@ def _unknown(subject: str, format: Format) -> int:
     from gearlink.cli.glossary import folded, terms_within
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
-    from gearlink.core.base.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import entries
 
-    everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
+    everything = [*names(), *(entry.symbol for _, _, entry in entries() if entry.symbol)]
     known = [*(name.rpartition(".")[2] for name in everything), *everything, *term_names()]
     near = near_names(subject, {folded(name): name for name in reversed(known)}.values())
     remedy = "`gearlink explain` lists the codes, `gearlink new` the kinds"

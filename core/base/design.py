@@ -91,9 +91,9 @@ class _Placed(property):
 
     path: str
 
-    def __set_name__(self, _owner: type, name: str) -> None:
+    def __set_name__(self, owner: type, name: str) -> None:
         place = f"Stands at `{self.path}`."
-        words = TERMS[name].words if name in TERMS else ""
+        words = term(name, getattr(owner, "kind", "")).words if name in TERMS else ""
         self.__doc__ = f"{words[:1].upper()}{words[1:]}. {place}" if words else place
 
 
@@ -315,7 +315,7 @@ class Design:
         value = _bounded(self.raw(name))
         if value is None:
             return None
-        entry, unit = term(name), self.unit_of(name)
+        entry, unit = term(name, self.kind), self.unit_of(name)
         return Quantity(name, in_unit(value, unit), unit, entry.symbol, entry.words)
 
     def needs(self, _name: str, /) -> str:

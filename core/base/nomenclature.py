@@ -6,7 +6,7 @@ VDI 2142/2143 (laws of motion, cams).
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from gearlink.core.base.errors import GearlinkError
@@ -94,8 +94,6 @@ STEPPING = {**PRESS_TEETH, **GUIDANCE, **GENEVA, **REDUCER, **RACKS, **STEP_TRAI
 MACHINE = {
     "least_margin": Term("", "deg", "minimum margin of the relations between events", "own derivation"),
     "limiting_relations": Term("", "1", "relations that limit the margin of the free phases"),
-    "cycle_turns": Term("", "1", "revolutions of the main shaft until all motions repeat"),
-    "phase": Term("", "deg", "machine angle at which the member's input angle is 0, as found", "own derivation"),
     "phase_room": Term("", "deg", "width of the interval in which the phase was taken", "own derivation"),
     "natural_frequencies": Term("f", "Hz", "natural frequencies of the main shaft", "Thomson, 12.4"),
     "critical_speeds": Term(
@@ -326,6 +324,7 @@ REAL_SPEED: dict[str, Term] = {
 }
 
 SLIDER: dict[str, Term] = {
+    "return_angle": Term("", "deg", "input angle of the return stroke"),
     "velocity_max": Term("v'_max", "mm/rad", "maximum velocity of slider (outwards) or point per input speed"),
     "velocity_max_at": Term("", "deg", "input angle of the maximum velocity"),
     "velocity_min": Term("v'_min", "mm/rad", "minimum velocity per input speed; of a slider the maximum inwards"),
@@ -339,7 +338,6 @@ SLIDER: dict[str, Term] = {
     ),
     "acceleration_min_at": Term("", "deg", "input angle of the minimum acceleration"),
     "forward_angle": Term("theta_F", "deg", "input angle of the slider's stroke away from the crank's axis"),
-    "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
 }
 
 CRANK_ROCKER: dict[str, Term] = {
@@ -347,10 +345,6 @@ CRANK_ROCKER: dict[str, Term] = {
     "inner_dead_center": Term("phi_i", "deg", "crank angle with crank and coupler folded over each other", "VDI 2130"),
     "crank_offset": Term("phi_0", "deg", "angle added to the given crank angles, 0 or 180", "own derivation"),
     "rocker_offset": Term("psi_0", "deg", "angle added to the given rocker angles, 0 or 180", "own derivation"),
-    "rocker_speed_max": Term("w3_max", "rad/s", "maximum speed of the rocker at this input speed"),
-    "rocker_speed_min": Term("w3_min", "rad/s", "minimum speed of the rocker at this input speed"),
-    "rocker_acceleration_max": Term("e3_max", "rad/s^2", "maximum acceleration of the rocker at this input speed"),
-    "rocker_acceleration_min": Term("e3_min", "rad/s^2", "minimum acceleration of the rocker at this input speed"),
 }
 
 
@@ -618,11 +612,6 @@ _DISC_CAM = {
     "prime_radius": Term(
         "r_p", "mm", "distance from cam axis to roller centre at zero lift, given or the minimum", "VDI 2142"
     ),
-    "offset": Term(
-        "e",
-        "mm",
-        "distance of the line of travel from the axis of crank or cam; of a cam positive where it passes on the right",
-    ),
     "start_angle": Term("Psi_0", "deg", "angle of the follower from the line pivot to cam axis at zero lift"),
     "nose_radius": Term("r_2", "mm", "radius of the nose of a cam that is made of arcs"),
     "nose_distance": Term("d", "mm", "distance from the cam axis to the centre of the nose"),
@@ -669,7 +658,6 @@ _GRIPPER = {
         "", "deg", "cam angle of the working stroke of a wide swing", "wide-swing dissertation, ch. 1"
     ),
     "far_dwell_angle": Term("", "deg", "angle of the input in the far dwell", "swing-gripper paper 2"),
-    "return_angle": Term("D_r", "deg", "angle of the input in the return", "swing-gripper paper 2"),
     "near_dwell_angle": Term("", "deg", "angle of the input in the near dwell", "swing-gripper paper 2"),
     "handover_angle": Term("theta_A", "deg", "cylinder angle of the handover", "swing-gripper paper 2"),
     "finger_lift": Term("", "mm", "travel of the finger tips at the end of the release window"),
@@ -1062,6 +1050,27 @@ TERMS: dict[str, Term] = {
 }
 
 
+OF_KIND = {
+    "machine": {
+        "cycle_turns": Term("", "1", "revolutions of the main shaft until all motions repeat"),
+        "phase": Term("", "deg", "machine angle at which the member's input angle is 0, as found", "own derivation"),
+    },
+    "slider-crank": {
+        "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
+    },
+    "swing-gripper": {
+        "return_angle": Term("D_r", "deg", "angle of the input in the return", "swing-gripper paper 2"),
+    },
+}
+"""What a quantity of a kind means where `TERMS` has the words of the others."""
+
+
+def entries() -> Iterator[tuple[str, str, Term]]:
+    """Every quantity with its entry; where a kind has its own, once more with the name of the kind."""
+    yield from ((name, "", entry) for name, entry in TERMS.items())
+    yield from ((name, kind, entry) for kind, own in OF_KIND.items() for name, entry in own.items())
+
+
 ALIASES = {
     "prime_radius": "cam_base_radius",
     "dimension_over_balls": "measure_over_balls",
@@ -1111,13 +1120,14 @@ def fixed_name(name: str, known: Collection[str]) -> str:
     return fixed if name not in known and fixed in known else name
 
 
-def term(name: str) -> Term:
-    """The entry of a quantity; in a name that carries its mesh, `crank_idler.contact_ratio`, the last part counts.
+def term(name: str, kind: str = "") -> Term:
+    """The entry of a quantity, of a kind where it has its own; of `crank_idler.contact_ratio` the last part counts.
 
     Raises
         GearlinkError - for a name without an entry
     """
+    last = name.rpartition(".")[2]
     try:
-        return TERMS[name.rpartition(".")[2]]
+        return OF_KIND.get(kind, TERMS).get(last) or TERMS[last]
     except KeyError:
         raise GearlinkError(f"no nomenclature entry for {name!r}") from None

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+import gearlink
 from gearlink.core.base import nomenclature
 from gearlink.core.base.design import Design
 from gearlink.core.base.errors import GearlinkError
@@ -18,6 +19,7 @@ from gearlink.core.base.nomenclature import TERMS, Term, term
 from gearlink.core.parts.gears.checks import GEAR_CHECKS
 
 REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
+DESIGNS = Path(__file__).parents[2] / "designs"
 UNITS = {
     "kg",
     "kg m^2",
@@ -249,3 +251,32 @@ def test_a_term_needs_neither_its_name_nor_its_neighbour() -> None:
     assert [name for name, said in words.items() if _parts(said) <= _parts(name)] == []
     assert [name for name, said in words.items() if re.match(_POINTING, said)] == []
     assert [name for name, said in words.items() if re.search(_AS_ABOVE, said)] == []
+
+
+def test_no_quantity_is_overwritten_by_another_of_its_name() -> None:
+    """`TERMS` is put together from tables, of which the last would win: what a kind has by itself stands in OF_KIND."""
+    tables = [
+        (name, table)
+        for name, table in vars(nomenclature).items()
+        if isinstance(table, dict) and name not in ("TERMS", "STEPPING", "ALIASES", "OF_KIND") and name[:2] != "__"
+    ]
+    owners = Counter(name for _, table in tables for name in table)
+    assert len(tables) > 20
+    assert set(owners) == set(TERMS)
+    assert [name for name, count in owners.items() if count > 1] == []
+
+
+@pytest.mark.parametrize(
+    ("file", "name", "words"),
+    [
+        ("slider_crank_quick_return", "return_angle", "input angle of the slider's stroke towards the crank's axis"),
+        ("swing_gripper", "return_angle", "angle of the input in the return"),
+        ("mutilated_gear_times", "cycle_turns", "input revolutions per output cycle"),
+        ("sheet_press", "cycle_turns", "revolutions of the main shaft until all motions repeat"),
+        ("five_bar_path", "phase", "direction of the output link at input angle 0; of the coupler where a function is"),
+    ],
+)
+def test_a_quantity_means_what_it_is_in_its_kind(file: str, name: str, words: str) -> None:
+    quantity = gearlink.load(DESIGNS / f"{file}.yaml").quantity(name)
+    assert quantity is not None
+    assert quantity.words.startswith(words)

@@ -223,7 +223,7 @@ def _results(report: Report) -> Iterator[str]:
                 _below_each_other(quiet(q.value, scale.get(q.unit, 0.0))),
                 "" if q.unit == "1" else q.unit,
                 q.words,
-                term(q.name).source,
+                term(q.name, report.kind).source,
             )
             for q in report.quantities
         )

@@ -149,7 +149,7 @@ class OfMembers(Design):
         if not rest:
             return super().quantity(name)
         if rest in _OF_MEMBER and member in self.spec.free:
-            entry, value = term(rest), self.raw(name)
+            entry, value = term(rest, self.kind), self.raw(name)
             return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
         if name not in self.quantity_names():
             raise UnknownName("quantity", name, self.quantity_names())
