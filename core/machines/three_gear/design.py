@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
-from gearlink.core.base.remedies.ways import down, either, up
+from gearlink.core.base.remedies.ways import counts, down, either, up
 from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
@@ -119,6 +119,8 @@ MESH_QUANTITIES = named(MESHES)
 
 
 _UNITS = 8.0
+_MORE_TEETH = 20
+"""So many more than the smallest idler are tried where its teeth do not mesh well."""
 _TEETH = (
     up("gears.crank", "gears.output", step=1),
     *(up(f"gears.{gear}", step=1) for gear in ("crank", "idler", "output")),
@@ -564,9 +566,12 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         return rooms(self, math.radians(self.spec.dwell_window or 0.0), self.output_tolerance or 0.0)
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:
-        """The lengths that meet a window."""
-        asked = check == "dwell-window" and self.spec.dwell_window is not None
-        return (((room.key, length),) for room in self.window_rooms for length in room.built()) if asked else ()
+        """The lengths that meet a window; more teeth for the teeth of an idler that a task chose as the smallest."""
+        if check == "dwell-window" and self.spec.dwell_window is not None:
+            return (((room.key, length),) for room in self.window_rooms for length in room.built())
+        if check in MESH_CHECKS and self.task is not None and self.spec.gears.idler is None and self.spec.gears.i3 is None:
+            return ((("gears.idler", self.idler_teeth + more),) for more in counts(_MORE_TEETH))
+        return ()
 
     def check_rounded_ratio(self) -> Iterator[Check]:
         """GL304 where the file gives i3, or a step of a chain without its sprocket: whole teeth may change either."""

@@ -198,3 +198,19 @@ def test_a_remedy_does_not_depend_on_other_findings(kind: str, count: int) -> No
             alone = factory.design(data, command=command)
             alone.require(command)
             assert in_order == [check.remedy for check in alone.findings(command, name)], (data, name)
+
+
+def test_an_idler_that_the_synthesis_chose_may_have_more_teeth_for_its_ring() -> None:
+    """Each other change is a search for the idler, of which only two are tried."""
+    data: dict[str, Any] = {
+        "kind": "three-gear-four-bar",
+        "gears": {"module": 2, "crank": 20, "output": -60},
+        "dwell": {"tolerance": 0.5},
+    }
+    made = factory.design(data, command="synth dwell")
+    (check,) = failing(made, "synth dwell", "involute-interference")
+    ((key, teeth),) = check.remedy
+    assert key == "gears.idler"
+    assert made.idler_teeth < teeth < made.idler_teeth + 6
+    data["gears"]["idler"] = teeth
+    assert not failing(factory.design(data, command="synth dwell"), "synth dwell", "involute-interference")
