@@ -569,7 +569,8 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         """The lengths that meet a window; more teeth for the teeth of an idler that a task chose as the smallest."""
         if check == "dwell-window" and self.spec.dwell_window is not None:
             return (((room.key, length),) for room in self.window_rooms for length in room.built())
-        if check in MESH_CHECKS and self.task is not None and self.spec.gears.idler is None and self.spec.gears.i3 is None:
+        gears = self.spec.gears
+        if check in MESH_CHECKS and self.task is not None and gears.idler is None and gears.i3 is None:
             return ((("gears.idler", self.idler_teeth + more),) for more in counts(_MORE_TEETH))
         return ()
 
