@@ -111,8 +111,13 @@ class _Occ:
     def __init__(self) -> None:
         try:
             import_module("OCP")
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             raise NoStep("STEP needs the library cadquery-ocp: pip install cadquery-ocp, or use --as dxf") from error
+        except ImportError as error:  # as on a computer without a screen
+            raise NoStep(
+                f"cadquery-ocp is installed, but a library that it needs is not: {error}\n"
+                "install it (libGL.so.1 on Debian and Ubuntu: apt-get install libgl1), or use --as dxf"
+            ) from error
         messenger = _static(self.Message.Message, "DefaultMessenger")()
         for printer in list(messenger.Printers()):  # it reports every transfer on standard output
             messenger.RemovePrinter(printer)

@@ -217,12 +217,18 @@ def test_a_ring_lies_between_its_teeth_and_its_rim(designs: Path) -> None:
 def test_step_is_refused_without_its_library(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    command = ["export", designs / "ty460_input_gears.yaml", "--as", "step", "--width", 20, "--out", tmp_path / "out"]
     monkeypatch.setitem(sys.modules, "OCP", None)
-    ended = gearlink(
-        "export", designs / "ty460_input_gears.yaml", "--as", "step", "--width", 20, "--out", tmp_path / "out"
-    )
+    ended = gearlink(*command)
     assert ended.status == 2
     assert "pip install cadquery-ocp" in ended.err
+    monkeypatch.delitem(sys.modules, "OCP")
+    (tmp_path / "OCP.py").write_text("raise ImportError('libGL.so.1: cannot open shared object file')")
+    monkeypatch.syspath_prepend(tmp_path)
+    ended = gearlink(*command)
+    assert ended.status == 2
+    assert "is installed, but a library that it needs is not: libGL.so.1" in " ".join(ended.err.split())
+    assert "apt-get install libgl1" in ended.err
     assert not (tmp_path / "out").exists()
 
 
