@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import stat
@@ -130,9 +131,16 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     except (FileExistsError, NotADirectoryError) as error:
         raise CannotWrite(f"cannot write {path}: {path.parent} is not a folder") from error
     except OSError as error:
-        # Windows moves nothing to a name that a program has open, such as a viewer or a spreadsheet.
-        shown = "\nclose the program that shows it" if sys.platform == "win32" and path.is_file() else ""
-        raise CannotWrite(f"cannot write {path}: {error.strerror or error}{shown}") from error
+        raise CannotWrite(f"cannot write {path}: {error.strerror or error}\n{_advice(error, path)}".rstrip()) from error
+
+
+def _advice(error: OSError, path: Path) -> str:
+    """What helps where a file cannot be written; empty where nothing is known."""
+    if sys.platform == "win32" and path.is_file():  # nothing is moved there to a name that a program has open
+        return "close the program that shows it"
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return "write into a folder that you may write to: --out DIR"
+    return "make room, or write to another disk: --out DIR" if error.errno == errno.ENOSPC else ""
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
 
@@ -43,6 +44,22 @@ def test_folder_in_the_way(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(CannotWrite, match="cannot write"):
         write_atomically(tmp_path / "file" / "a.txt", lambda stream: stream.write(b""))
+
+
+@pytest.mark.parametrize(
+    ("number", "fix"),
+    [(errno.EACCES, "write into a folder that you may write to: --out DIR"), (errno.ENOSPC, "make room"), (0, "")],
+)
+def test_a_file_that_cannot_be_written_says_what_helps(number: int, fix: str, tmp_path: Path) -> None:
+    def fail(stream: object) -> None:
+        raise OSError(number, "the reason")
+
+    with pytest.raises(CannotWrite) as refused:
+        write_atomically(tmp_path / "a.txt", fail)
+    what, _, advice = str(refused.value).partition("\n")
+    assert what.endswith("a.txt: the reason")
+    assert advice.startswith(fix)
+    assert bool(advice) is bool(fix)
 
 
 @pytest.mark.parametrize("letter", ["x", "é", "中", "𝛼"])
