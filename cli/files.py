@@ -140,7 +140,7 @@ def _advice(error: OSError, path: Path) -> str:
         return "close the program that shows it"
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
         return "write into a folder that you may write to: --out DIR"
-    return "make room, or write to another disk: --out DIR" if error.errno == errno.ENOSPC else ""
+    return "free some space, or write to another disk: --out DIR" if error.errno == errno.ENOSPC else ""
 
 
 @contextmanager
