@@ -22,7 +22,7 @@ from gearlink.cli.texts.schema import Index, known_keys, worked_design
 from gearlink.cli.verification.cases import Case, Source, sources
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import FILES
-from gearlink.core.base.nomenclature import ALIASES, OF_KIND, TERMS, entries
+from gearlink.core.base.nomenclature import ALIASES, TERMS, entries
 
 TARGET = Path(__file__).parent / "nomenclature.md"
 GLOSSARY = Path(__file__).parent / "glossary.md"
@@ -247,7 +247,7 @@ def text() -> str:
     kinds = _kinds_by_quantity()
     rows = [
         f"| `{name}` | {term.symbol} | {term.unit} | {term.words} | {term.source} | "
-        f"{own or ', '.join(each for each in kinds.get(name, []) if name not in OF_KIND.get(each, ()))} |"
+        f"{own or ', '.join(each for each in kinds.get(name, []) if name not in FILES[each].terms)} |"
         for name, own, term in sorted(entries())
     ]
     return _HEAD + "\n".join(row.replace("|max", "\\|max") for row in rows) + "\n"

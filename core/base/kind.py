@@ -43,6 +43,7 @@ class Kind(NamedTuple):
         rexs : (names) or None - its gears in REXS, in the order of the file; (): as the file names them; None: no pair
         sheets : dict - what gives the content of a sheet, by its name; "": it has not the one that any motion has
         worked : str - stem of the example to begin with, where it is not called as the kind
+        terms : dict - fields of the `nomenclature.Term` of a quantity that has another meaning in the other kinds
     """
 
     name: str
@@ -66,6 +67,7 @@ class Kind(NamedTuple):
     rexs: tuple[str, ...] | None = None
     sheets: Mapping[str, str] = {}
     worked: str = ""
+    terms: Mapping[str, tuple[str, ...]] = {}
 
     @property
     def all_sheets(self) -> dict[str, str]:

@@ -80,6 +80,7 @@ KINDS: dict[str, Kind] = {
             cut=True,
             parts=("pinion", "fixed_pinion", "moving_pinion", "fixed_rack", "moving_rack"),
             worked="ty460_slider_crank",
+            terms={"return_angle": ("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis")},
         ),
         Kind(
             "crank-rocker",
@@ -160,6 +161,9 @@ KINDS: dict[str, Kind] = {
                 "timing": "cli.views.figures.sheets.timing_sheet:gripper",
                 "pressure": "cli.views.figures.sheets.cam_sheets:gripper_discs",
                 "drawing": "cli.views.figures.sheets.cam_sheets:gripper_discs",
+            },
+            terms={
+                "return_angle": ("D_r", "deg", "angle of the input in the return", "swing-gripper paper 2"),
             },
         ),
         Kind(
@@ -493,6 +497,15 @@ KINDS: dict[str, Kind] = {
                 "timing-circle": "cli.views.figures.machine:circle_sheet",
             },
             worked="sheet_feeder",
+            terms={
+                "cycle_turns": ("", "1", "revolutions of the main shaft until all motions repeat"),
+                "phase": (
+                    "",
+                    "deg",
+                    "machine angle at which the member's input angle is 0, as found",
+                    "own derivation",
+                ),
+            },
         ),
     )
 }

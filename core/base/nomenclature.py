@@ -1050,25 +1050,12 @@ TERMS: dict[str, Term] = {
 }
 
 
-OF_KIND = {
-    "machine": {
-        "cycle_turns": Term("", "1", "revolutions of the main shaft until all motions repeat"),
-        "phase": Term("", "deg", "machine angle at which the member's input angle is 0, as found", "own derivation"),
-    },
-    "slider-crank": {
-        "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
-    },
-    "swing-gripper": {
-        "return_angle": Term("D_r", "deg", "angle of the input in the return", "swing-gripper paper 2"),
-    },
-}
-"""What a quantity of a kind means where `TERMS` has the words of the others."""
-
-
 def entries() -> Iterator[tuple[str, str, Term]]:
     """Every quantity with its entry; where a kind has its own, once more with the name of the kind."""
+    from gearlink.core.base.kinds import KINDS
+
     yield from ((name, "", entry) for name, entry in TERMS.items())
-    yield from ((name, kind, entry) for kind, own in OF_KIND.items() for name, entry in own.items())
+    yield from ((name, kind.name, Term(*own)) for kind in KINDS.values() for name, own in kind.terms.items())
 
 
 ALIASES = {
@@ -1126,8 +1113,11 @@ def term(name: str, kind: str = "") -> Term:
     Raises
         GearlinkError - for a name without an entry
     """
+    from gearlink.core.base.kinds import KINDS
+
     last = name.rpartition(".")[2]
+    own = KINDS[kind].terms if kind in KINDS else {}
     try:
-        return OF_KIND.get(kind, TERMS).get(last) or TERMS[last]
+        return Term(*own[last]) if last in own else TERMS[last]
     except KeyError:
         raise GearlinkError(f"no nomenclature entry for {name!r}") from None

@@ -48,7 +48,11 @@ def test_folder_in_the_way(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("number", "fix"),
-    [(errno.EACCES, "write into a folder that you may write to: --out DIR"), (errno.ENOSPC, "free some space"), (0, "")],
+    [
+        (errno.EACCES, "write into a folder that you may write to: --out DIR"),
+        (errno.ENOSPC, "free some space"),
+        (0, ""),
+    ],
 )
 def test_a_file_that_cannot_be_written_says_what_helps(number: int, fix: str, tmp_path: Path) -> None:
     def fail(stream: object) -> None:
