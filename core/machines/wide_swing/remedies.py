@@ -237,8 +237,10 @@ def _nearest_good(bad: float, limit: float, good: Callable[[float], bool], step:
 # Combined mechanisms
 
 
-def with_number(error: NoSolution, repair: tuple[str, float]) -> NoSolution:
-    """The refusal, with the key to change and its value."""
+def with_number(error: NoSolution, repair: tuple[str, float] | None) -> NoSolution:
+    """The refusal, with the key to change and its value, where there is such a one."""
+    if repair is None:
+        return error
     path, value = repair
     return NoSolution(error.message, key=path, fix=f"set {path} to {value:.12g}")
 
@@ -291,16 +293,18 @@ def side_changes(section: SwingSlider) -> Iterator[tuple[Change, ...]]:
     yield from ((*turned, ("slider.mass", at_most(share * section.mass))) for share in (0.5, 0.2, 0.1))
 
 
-def drive_repair(section: SwingDrive) -> tuple[str, float]:
-    """A length that makes the drive a crank-rocker."""
+def drive_repair(section: SwingDrive) -> tuple[str, float] | None:
+    """A length that makes the drive a crank-rocker; None where one alone cannot."""
     others = sorted((getattr(section, name), name) for name in ("coupler", "rocker", "frame"))
-    (least, _), (middle, _), (longest, name) = others
+    (least, shortest), (middle, _), (longest, name) = others
     room = least + middle - longest
     if room > 0.0:
         return "drive.crank", at_most(0.9 * min(least, room))
     if section.crank < least:
-        return f"drive.{name}", at_most(max(middle, 0.95 * (least + middle - section.crank)))
-    return "drive.crank", at_most(0.5 * least)
+        return f"drive.{name}", max(middle, at_most(0.95 * (least + middle - section.crank)))
+    if section.crank < middle:  # the bound is crank + longest - middle
+        return f"drive.{shortest}", min(longest, at_least(longest - 0.5 * (middle - section.crank)))
+    return None
 
 
 def _rod(design: WideSwingDesign) -> Iterator[Change]:
@@ -319,8 +323,9 @@ def _refused(design: WideSwingDesign) -> Iterator[Change]:
     spec, motion = design.spec, design.motion
     if spec.unloader.type != "gravity" and spec.unloader.pivot_ratio <= 1.0:
         yield "unloader.pivot_ratio", at_least(motion.usual_pivot_ratio, _RATIO)
-    if spec.drive is not None:
-        yield drive_repair(spec.drive)
+    repair = drive_repair(spec.drive) if spec.drive is not None else None
+    if repair is not None:
+        yield repair
     if spec.slider is None:
         return
     if spec.slider.rod <= spec.slider.crank + abs(spec.slider.offset):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -139,6 +140,29 @@ def test_refusals() -> None:
     with pytest.raises(NoSolution, match=r"too small to compute a cam with.*set swing to at least") as refused:
         _ = OscillatingCam(DRIVE, ElasticLaw(Pneumatic(2.5), 1e-14), 1.0, 0.02).ratio
     assert refused.value.key == "swing"
+
+
+@pytest.mark.parametrize(
+    ("crank", "coupler", "rocker", "frame", "repair"),
+    [
+        (40.0, 400.0, 23.281, 371.17, "drive.rocker"),  # it named a crank of 11.6 mm, with which nothing closes
+        (60.0, 310.0, 100.0, 200.0, "drive.coupler"),
+        (82.1028, 470.4, 269.6504, 82.1468, "drive.coupler"),
+        (120.0, 180.0, 96.0, 192.0, "drive.crank"),
+        (200.0, 400.0, 23.0, 100.0, None),  # crank and another length
+    ],
+)
+def test_the_length_of_a_refused_drive_makes_a_crank_rocker(
+    crank: float, coupler: float, rocker: float, frame: float, repair: str | None
+) -> None:
+    links = {"crank": crank, "coupler": coupler, "rocker": rocker, "frame": frame}
+    with pytest.raises(NoSolution, match="not a crank-rocker") as refused:
+        _ = factory.design("wide_swing_oscillating_cam", drive=links).motion.drive
+    found = re.findall(r"set (\S+) to (\S+)", refused.value.fix)
+    assert [key for key, _ in found] == ([] if repair is None else [repair])
+    for key, value in found:
+        links[key.removeprefix("drive.")] = float(value)
+        assert FourBar(*links.values()).kind() == "crank-rocker"
 
 
 def example(roller: float = 8.0, assembly: int = 1) -> OscillatingCam:
