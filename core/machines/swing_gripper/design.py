@@ -880,11 +880,11 @@ class Closure:
         sense, *back = (1 if each > 0.0 else -1 for each in self.outward)
         if sense in back:
             arm = math.degrees(math.remainder(cmath.phase(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
-            way = "less" if arm > 0.0 else "more"
+            bound = f"above {safely_above(arm)}" if arm > 0.0 else f"below {safely_below(arm)}"
             raise NoSolution(
                 "both rollers lie on the same side of the cam: a spring that presses one lifts the other",
                 key="cam.return_roller.angle",
-                fix=f"set cam.return_roller.angle {'below' if way == 'more' else 'above'} {short(arm)} deg",
+                fix=f"set cam.return_roller.angle {bound} deg",
             )
         return sense
 
