@@ -350,11 +350,23 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
         A shaft of the file must be clear. Beside the axis of one that the file does not name there must be room for
         the thinnest shaft that would be built; less is a warning, since that shaft may end before the gears.
     """
-    for pair in layout.shaft_pairs:
+    pairs = layout.shaft_pairs
+    room = _room(pairs)
+    for pair in pairs:
         bare = pair.bare
         limit = layout.least_shaft * len(bare)
         judged = shaft_judged(pair.gap, limit, bool(bare))
-        yield _shaft_check(judged, pair, bare)
+        yield _shaft_check(judged, pair, bare, room)
+
+
+def _room(pairs: Iterable[Clearance]) -> dict[str, float]:
+    """What all bodies together leave to a shaft at the axis of each that the file does not name [mm], by its key."""
+    room: dict[str, float] = {}
+    for pair in pairs:
+        if len(pair.bare) == 1:
+            (shaft,) = pair.bare
+            room[shaft.key] = min(pair.gap, room.get(shaft.key, math.inf))
+    return room
 
 
 def shaft_judged(gap: Any, limit: Any, bare: Any) -> Judged:
@@ -396,8 +408,8 @@ def _words(body: Gear | Shaft) -> str:
     return f"the axis of the {body.name}" if body.radius is None else f"the {body.name}"
 
 
-def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...]) -> Check:
-    """GL302 of one body and one shaft."""
+def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...], room: Mapping[str, float]) -> Check:
+    """GL302 of one body and one shaft; the radius that is named is clear of every other body too."""
     one, other = _words(pair.one), _words(pair.other)
     named = [body for body in (pair.one, pair.other) if isinstance(body, Shaft) and body.radius is not None]
     aside = ", ".join(f"{body.name} radius {body.radius:g} mm" for body in named)
@@ -407,7 +419,7 @@ def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...]) -> Ch
     elif judged.warns:
         fix = f"end the {bare[0].name} before the plane of the gears (overhung)"
         # In whole tenths that can be built; the last bit of a gap is rounding.
-        radius = math.floor(10.0 * pair.gap - 1e-9) / 10.0
+        radius = math.floor(10.0 * room.get(bare[0].key, pair.gap) - 1e-9) / 10.0
         if len(bare) == 1 and radius >= THINNEST * judged.limit:
             fix = f"set {bare[0].key} to at most {radius:g} mm"
         if pair.gap >= 0.0:

@@ -209,6 +209,26 @@ def test_radius_named_in_place_of_a_bare_axis_passes() -> None:
     assert design(EXAMPLE_3, shafts={"input_radius": radius}).check("shaft-clearance")[0].status == "pass"
 
 
+def test_a_shaft_that_one_body_forbids_gets_no_radius_from_another() -> None:
+    """The sun leaves 3.7 mm beside the axis at D; with a shaft of that radius the planet failed."""
+    found = design("two_gear_drag_link", links__frame=23.701).check("shaft-clearance")
+    warned = [check for check in found if check.status == "warn"]
+    assert [check.message.split(" of ")[1].split(" and ")[0].split(" from ")[0] for check in warned] == [
+        "the planet",
+        "the sun",
+    ]
+    assert {check.fix for check in warned} == {"end the shaft at D before the plane of the gears (overhung)"}
+
+
+def test_the_radius_that_is_named_is_clear_of_all_bodies() -> None:
+    gears = [Gear(name, axis, outer=20.0, inner=0.0) for name, axis in (("gear 1", "A"), ("gear 2", "B"))]
+    reaches = {"AD": constant(23.75), "BD": constant(23.25)}
+    bare, thin = (Shaft("shaft at D", "D", radius, "shafts.D_radius") for radius in (None, 3.2))
+    warned = list(shaft_checks(Layout(tuple(gears), (bare,), reaches, 4.0)))
+    assert [(check.status, check.fix) for check in warned] == [("warn", "set shafts.D_radius to at most 3.2 mm")] * 2
+    assert [check.status for check in shaft_checks(Layout(tuple(gears), (thin,), reaches, 4.0))] == ["pass"] * 2
+
+
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("limit", [0.0, 3.3])
 def test_frame_that_is_named_parts_input_and_output_gear(limit: float) -> None:
