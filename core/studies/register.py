@@ -56,7 +56,7 @@ class Moves:
         pins : what the play of a pin moves: along a link the part in its direction counts, in the frame it is a vector;
             of those that are left out the element on the first link, in the frame
         gears : by source, the link of the gear
-        words : what a source should move, for those that do not
+        words : what the sources move, for a size that is none of them
     """
 
     errors: Errors
@@ -68,7 +68,7 @@ class Moves:
         """The shifts of a source.
 
         Raises
-            NoSolution - for a size that moves nothing
+            NoSolution - for a size that is no source here
         """
         name = source.key.partition(".")[2]
         if source.kind == "pin":
@@ -81,7 +81,7 @@ class Moves:
             return self.errors[source.key]
         others = f"; sizes that count here: {first_of(list(self.errors), 8)}" if self.errors else ""
         raise NoSolution(
-            f"{source.key} does not move {self.words}: it counts in tolerance alone",
+            f"{source.key} is no source of the register of {self.words}: it counts in tolerance alone",
             key=f'tolerance.sources."{source.key}"',
             fix=f"omit it where register is computed{others}",
         )
@@ -223,9 +223,12 @@ class RegisterDesign(Design):
 
     def shifts(self, source: Scatter, mechanism: Mechanism) -> tuple[Shift, ...]:
         """What a source moves; nothing where the output alone depends on it."""
-        if source.kind == "size" and self.own_gain(source.key, np.zeros(1)) is not None:
-            return ()
-        return self.moves.of(source, mechanism)
+        return () if self._own_alone(source) else self.moves.of(source, mechanism)
+
+    def _own_alone(self, source: Scatter) -> bool:
+        """Whether the output depends on a source by itself, and no joint does."""
+        own = source.kind == "size" and self.own_gain(source.key, np.zeros(1)) is not None
+        return own and source.key not in self.errors
 
     def gains(self, input_angle: Reals, torque_sign: int) -> Gains:
         """The gains over input angles."""
@@ -240,7 +243,8 @@ class RegisterDesign(Design):
         found = []
         for source in self.sources:
             own = self.own_gain(source.key, input_angle) if source.kind == "size" else None
-            found.append(contribution(source, gains.of(source) if own is None else own))
+            gain = 0.0 if self._own_alone(source) else gains.of(source)
+            found.append(contribution(source, gain if own is None else gain + own))
         return found
 
     def chain(self, input_angle: Reals, torque_sign: int) -> Chain:

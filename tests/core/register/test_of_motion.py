@@ -139,6 +139,24 @@ def test_gains_are_the_changes_of_designs_made_anew(name: str) -> None:
         assert found - found[0] == pytest.approx(one.gain - one.gain[0], abs=2e-8), one.source
 
 
+def test_an_output_that_is_a_pin_moves_on_its_link_and_with_the_chain() -> None:
+    """The end of the arm: an error of its length moved the point along the arm alone, as if no other link followed."""
+    made = factory.design(
+        "planar_watt",
+        command="register",
+        tolerance={"sources": {"links.arm[2]": SIZE}},
+        register={"output": "G", "direction": 30.0},
+    )
+    phi, step = some(made), 1e-4
+    (one,) = made.contributions(phi, 1)
+    value = number_at(made.spec, one.source)
+    others = [MotionRegister(changed(made.spec, [(one.source, value + way)])) for way in (step, -step)]
+    high, low = (other.course.rates(other.motion, phi, 0)[0] for other in others)
+    assert one.gain == pytest.approx((high - low) / (2.0 * step), abs=2e-8)
+    error = {one.source: np.array([1e-4])}
+    assert made.sampled_errors(phi, 1, error)[:, 0] == pytest.approx(1e-4 * one.gain, abs=2e-9)
+
+
 def test_a_gear_pair_in_closed_form() -> None:
     """Both runouts are transmitted along the line of action, once per revolution; the backlash is a lag."""
     made = register("gear_pair")

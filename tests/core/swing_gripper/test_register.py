@@ -99,9 +99,9 @@ def test_samples_of_the_chain_are_the_budget() -> None:
     assert gripper(sizes, method="mc", **more).band == pytest.approx(gripper(sizes, **more).band, rel=0.03)
 
 
-def test_what_does_not_move_the_tip_is_refused() -> None:
-    """At its own line, with the sizes that move it."""
-    with pytest.raises(NoSolution, match="does not move the tip") as refused:
+def test_what_is_no_source_of_the_register_is_refused() -> None:
+    """At its own line, with the sizes that are."""
+    with pytest.raises(NoSolution, match="is no source of the register of the tip") as refused:
         gripper({"links.input": {"plus_minus": 0.01}, "arm.length": {"plus_minus": 0.01}}).report("register")
     assert refused.value.key == 'tolerance.sources."arm.length"'
     assert "links.input, links.coupler" in refused.value.fix
