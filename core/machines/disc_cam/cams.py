@@ -432,7 +432,7 @@ class FollowerCams:
 
     @cached_property
     def roller_distance(self) -> float:
-        """Distance of both rollers of a slide [mm]; by default that of cams which reach equally far."""
+        """Distance of both rollers of a slide [mm]; by default that of pitch curves which reach equally far."""
         roller = self.spec.return_roller
         assert roller is not None
         return 2.0 * self.start_height + sum(self.lifts) if roller.distance is None else roller.distance

@@ -150,7 +150,7 @@ class ReturnRoller(Spec):
 
     radius: Length = Field(description="radius of the roller")
     distance: Length | None = Field(
-        None, description="translating: distance of both rollers; default: that of equal cams"
+        None, description="translating: distance of both rollers; default: that of equal pitch curves"
     )
     arm: Length | None = Field(None, description="oscillating: pivot to roller centre")
     angle: Angle | None = Field(None, description="oscillating: angle from the first roller's arm to the second's")
