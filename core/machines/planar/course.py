@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.dyads import Dyad, dyads, mirrored
 from gearlink.core.machines.planar.structure import Line, LineJoint, RackJoint, Structure
@@ -102,10 +103,10 @@ class _Refusals:
         unit, shown = self.course.unit, self.course.shown
         here = shown(self.course.dead_centre(q))
         if back is None:
-            free = f"{'above' if q < 0.0 else 'below'} {here:.6g} {unit}"
+            free = f"above {safely_above(here, 6)} {unit}" if q < 0.0 else f"below {safely_below(here, 6)} {unit}"
         else:
             low, high = sorted((here, shown(self.course.dead_centre(back))))
-            free = f"between {low:.6g} and {high:.6g} {unit}"
+            free = f"between {safely_above(low, 6)} and {safely_below(high, 6)} {unit}"
         ways = "keep range: {start, end}" if ranged else "let the input oscillate"
         return NoSolution(
             f"the mechanism jams in a dead centre at input {short(here)} {unit}",

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.six_bar.spec import LINKS, PINS, SixTrain
@@ -466,10 +467,11 @@ class _Refusals:
     def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
         """With the range that is free of dead centres."""
         if back is None:
-            free = f"{'above' if q < 0.0 else 'below'} {math.degrees(q):.6g} deg"
+            here = math.degrees(q)
+            free = f"above {safely_above(here, 6)} deg" if q < 0.0 else f"below {safely_below(here, 6)} deg"
         else:
             low, high = sorted((math.degrees(q), math.degrees(back)))
-            free = f"between {low:.6g} and {high:.6g} deg"
+            free = f"between {safely_above(low, 6)} and {safely_below(high, 6)} deg"
         return NoSolution(
             f"the six-bar reaches a dead centre at input angle {short(math.degrees(q))} deg, where it jams",
             key="range" if ranged else "links",

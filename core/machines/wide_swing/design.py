@@ -1188,7 +1188,8 @@ class WideSwingDesign(Design):
             bottom = cam.min_radius - section.roller_radius
             room = bottom - shaft
             status: Status = "pass"
-            fix = f"set cam.center_distance to at least {safely_above(remedies.center_distance(self))} mm"
+            key, distance = remedies.center_distance(self, cam)
+            fix = f"set {key} to at least {safely_above(distance)} mm"
             recommended = None
             if room <= 0.0:
                 status = "fail"
@@ -1291,7 +1292,8 @@ class WideSwingDesign(Design):
                     what = f"the contour of the {words} crosses itself in its free sector"
                 yield CLOSED_CONTOUR.check("fail", what, clearance, most, "mm", shown=shown, fix=fix)
             elif least <= shaft:
-                what, fix = f"minimum radius of the contour of the {words}", "set a larger cam.center_distance"
+                what = f"minimum radius of the contour of the {words}"
+                fix = f"set a larger {remedies.distance_key(self, cam.cam)}"
                 yield CLOSED_CONTOUR.check("fail", what, least, shaft, "mm", aside="shaft radius", fix=fix)
             elif cam.cam.sense > 0 and least < HUB * shaft and least < cam.cam.min_radius - cam.cam.roller_radius:
                 what, shown = (

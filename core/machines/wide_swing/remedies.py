@@ -32,6 +32,7 @@ _STEPS = 16
 _SAME_ANGLE = 0.011
 
 _CYCLE = down("cycle_angle", step=_DEGREES)
+_DISTANCES = ("cam.center_distance", "cam.second.center_distance")
 _ROLLER = (down("cam.roller_radius"), up("cam.center_distance"))
 WAYS = {
     "pressure-angle": (*either("slider.middle_angle", step=1.0), down("slider.crank")),
@@ -40,7 +41,7 @@ WAYS = {
     "profile-exists": (_CYCLE, down("drive.crank"), up("swing", step=_DEGREES)),
     "cam-undercut": _ROLLER,
     "transition-zone": _ROLLER,
-    "shaft-clearance": (up("cam.center_distance"), down("cam.roller_radius"), *thinner("cam.shaft_radius")),
+    "shaft-clearance": (*map(up, _DISTANCES), down("cam.roller_radius"), *thinner("cam.shaft_radius")),
     "body-clearance": (up("unloader.arm"), *either("slider.middle_angle", step=1.0)),
     "force-reserve": (up("unloader.reserve", step=_RATIO),),
     "transmission-angle": (down("drive.crank"), *either("drive.coupler", "drive.frame")),
@@ -65,14 +66,22 @@ def reserve(residual: float, margin: float, need: float = 1.0) -> float:
 # Lengths that follow from similarity
 
 
-def center_distance(design: WideSwingDesign) -> float:
-    """Centre distance at which the rollers leave the cam shaft its hub [mm]."""
-    section = design.section
+def distance_key(design: WideSwingDesign, cam: AnyCam) -> str:
+    """The key of a cam's centre distance."""
+    second = design.section.second
+    own = second is not None and second.center_distance is not None and cam is design.return_cam
+    return "cam.second.center_distance" if own else "cam.center_distance"
+
+
+def center_distance(design: WideSwingDesign, cam: AnyCam) -> tuple[str, float]:
+    """Key and centre distance [mm] at which a cam's roller leaves the shaft its hub, with those on the same shaft."""
+    section, second = design.section, design.section.second
     needed = HUB * section.shaft_radius + section.roller_radius
+    key, apart = distance_key(design, cam), second is not None and second.center_distance is not None
     if section.rocker_radius is not None:
-        return (section.rocker_radius + needed) * _STRICTLY
-    least = min(cam.min_radius for cam in design.cams.values())
-    return section.center_distance * needed / least * _STRICTLY
+        return key, (section.rocker_radius + needed) * _STRICTLY
+    shares = [each.min_radius / each.center_distance for each in ((cam,) if apart else design.cams.values())]
+    return key, needed / min(shares) * _STRICTLY
 
 
 def roller_for_zone(design: WideSwingDesign) -> float:
@@ -102,7 +111,9 @@ def _shaft(design: WideSwingDesign) -> Iterator[Change]:
     roller = roller_of_profile(design)
     if roller is not None:
         yield "cam.roller_radius", at_most(roller)
-    yield "cam.center_distance", at_least(center_distance(design))
+    bottom = HUB * design.section.shaft_radius + design.section.roller_radius
+    changes = [center_distance(design, cam) for cam in design.cams.values() if cam.min_radius < bottom]
+    yield from ((path, at_least(value)) for path, value in dict.fromkeys(changes))
 
 
 def _longer_arm(design: WideSwingDesign) -> Iterator[Change]:

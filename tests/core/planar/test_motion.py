@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -226,6 +227,18 @@ def test_refusals(change: dict[str, Any], key: str, words: str, monkeypatch: pyt
     with pytest.raises(NoSolution, match=words) as refusal:
         planar("four-bar", **change).require("analyze")
     assert refusal.value.key == key
+
+
+@pytest.mark.parametrize("length", [30.0, 45.0, 52.7])
+def test_the_range_between_dead_centres_is_free_as_it_is_printed(length: float) -> None:
+    links = {**FOUR_BAR["links"], "rocker": ["D", "C", length]}
+    with pytest.raises(NoSolution, match="dead centre") as refusal:
+        planar("four-bar", links=links).require("analyze")
+    low, high = map(float, re.findall(r"between (\S+) and (\S+) deg", refusal.value.fix)[0])
+    planar("four-bar", links=links, range={"start": low, "end": high}).require("analyze")
+    for wrong in ({"start": low - 0.01, "end": high}, {"start": low, "end": high + 0.01}):
+        with pytest.raises(NoSolution, match="keep range"):
+            planar("four-bar", links=links, range=wrong).require("analyze")
 
 
 def test_three_parallel_cranks_name_the_joints_that_repeat_each_other() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
 from pydantic import ValidationError
@@ -140,3 +141,19 @@ def test_errors_of_the_second_shaft_by_a_displaced_cam(geared: bool, sign: int) 
         }
         ways.append(all(found[name] == pytest.approx(abs(each), rel=1e-5, abs=1e-9) for name, each in gain.items()))
     assert any(ways)  # one flank of the gear carries; which one is the sign of the torque
+
+
+def test_the_cam_that_lacks_room_is_moved_from_its_own_shaft() -> None:
+    """The second shaft stands too near; they named the distance of the first, which leaves the second cam as it is."""
+    near = {"cam__second__center_distance": 40.0, "cam__roller_radius": 3.0}
+    found = factory.design("wide_swing_parallel", **near).findings("swing", "shaft-clearance")
+    (check,) = [each for each in found if each.status == "fail"]
+    assert "return cam" in check.what
+    ((key, value),) = check.remedy
+    assert key == "cam.second.center_distance"
+    apart = factory.design("wide_swing_parallel", **near | {"cam__second__center_distance": value})
+    assert {each.status for each in apart.findings("swing", "shaft-clearance")} == {"pass"}
+    (contour,) = [
+        each for each in factory.design("wide_swing_parallel", **near).check("closed-contour") if each.status == "fail"
+    ]
+    assert contour.fix == "set a larger cam.second.center_distance"
