@@ -92,9 +92,22 @@ def roller_for_zone(design: WideSwingDesign) -> float:
 
 
 def roller_for_curvature(design: WideSwingDesign) -> float:
-    """Roller radius that keeps well below every cam's least curvature radius [mm]; one that touches where none does."""
+    """Roller radius that keeps well below every cam's least curvature radius [mm]; one that touches where none does.
+
+    Notes
+        A smaller roller touches the profile nearer to mid-swing, where it bends more: where the radius found at the
+        given one does not hold itself, the largest one that does is sought.
+    """
     judged = [cam.min_curvature_radius for cam in design.cams.values() if design.has_zone(cam)]
-    return 0.8 * min(judged) / _STRICTLY if judged else roller_for_zone(design)
+    if not judged:
+        return roller_for_zone(design)
+    most, good = 0.8 * min(judged) / _STRICTLY, _good(design, "cam.roller_radius", _curvature_holds)
+    return most if good(most) else _nearest_good(most, 0.0, good, 0.1 if most > 2.0 else 0.05 * most) or most
+
+
+def _curvature_holds(trial: WideSwingDesign) -> bool:
+    cams = (cam for cam in trial.cams.values() if trial.has_zone(cam))
+    return all(trial.section.roller_radius <= 0.8 * cam.min_curvature_radius for cam in cams)
 
 
 def roller_of_profile(design: WideSwingDesign) -> float | None:

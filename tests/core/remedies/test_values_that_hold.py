@@ -16,6 +16,8 @@ from gearlink.core.base.report import Check
 SWING_SLIDER: dict[str, Any] = {"slider__crank": 300, "cycle_angle": 146, "cam__roller_radius": 9}
 WARNED: dict[str, Any] = {"loads__vibration__allowed_residual": 0.1165}
 NEAR_SHAFT: dict[str, Any] = {"cam__center_distance": 66.25, "slider__mass": 7.17}
+NEARER_MIDDLE: dict[str, Any] = {"swing": 150.77, "slider__crank": 158.36}
+"""A smaller roller touches its cam nearer to mid-swing, where the cam bends more."""
 TANGENT: dict[str, Any] = {
     "follower__roller_radius": 26.34,
     "profile__base_radius": 15.61,
@@ -35,6 +37,7 @@ def found(base: Any, command: str, name: str, **keys: Any) -> Check:
         pytest.param("loaded_wide_swing", "loads", "residual-vibration", WARNED, "speed", marks=pytest.mark.slow),
         ("wide_swing_slider_cam", "swing", "shaft-clearance", NEAR_SHAFT, "cam__center_distance"),
         ("tangent_cam", "cam", "cam-undercut", TANGENT, "follower__roller_radius"),
+        ("wide_swing_slider_cam", "cam", "cam-undercut", NEARER_MIDDLE, "cam__roller_radius"),
         ("tangent_cam", "cam", "cam-undercut", TANGENT | {"follower__roller_radius": 21.0}, "follower__roller_radius"),
     ],
 )
