@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import random
 from typing import Any
 
 import factory
@@ -83,6 +84,34 @@ def test_draws_of_normal_parts_agree_with_their_closed_form() -> None:
     by_draws = drawn_yield(columns, [Requirement((1.0, 2.0), 0.06, 0.03, rest)], 0.0)
     for grades in itertools.product(GRADES, repeat=2):
         assert by_draws(grades) == pytest.approx(exact(grades), abs=2e-3)
+
+
+def test_a_search_of_many_parts_ends_near_the_cheapest_of_all_choices(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Too many choices to try all: of 40 random requirements none costs a tenth more than the cheapest of all."""
+    rng = random.Random(7)
+    excess = []
+    for _ in range(40):
+        sizes = [rng.uniform(5.0, 400.0) for _ in range(rng.choice([3, 4, 5]))]
+        graded = [Graded(rng.choice([4, 5]), rng.choice([10, 11]), rng.choice([0.3, 1.0, 3.0])) for _ in sizes]
+        laws = [
+            {g: Law("normal", -half(size, g), half(size, g), 0.0, half(size, g) / 3.0) for g in range(4, 12)}
+            for size in sizes
+        ]
+        gains = tuple(rng.uniform(-3.0, 3.0) for _ in sizes)
+        room = math.hypot(*(gain * half(size, rng.choice([6, 7, 8])) for gain, size in zip(gains, sizes, strict=True)))
+        reached = normal_yield(laws, Requirement(gains, room, 0.8 * room))
+        found = []
+        for most in (10**6, 0):
+            monkeypatch.setattr(study_module, "_MOST_TRIED", most)
+            found.append(next(choices(graded, reached, 0.97, 1.6), None))
+        every, some = found
+        assert (every is None) == (some is None)
+        if every and some:
+            assert some.reached >= 0.97
+            excess.append(some.cost / every.cost)
+    assert len(excess) > 30
+    assert max(excess) < 1.1
+    assert np.mean(excess) < 1.005
 
 
 def study(law: dict[str, Any], **section: Any) -> Any:
