@@ -43,10 +43,8 @@ class Concept(NamedTuple):
     """A term of the field.
 
     Fields
-        name : str
         definition : str - two sentences
         also, german, chinese : other English names, and the names in German (VDI, DIN) and Chinese, the usual one first
-        symbol : str
         keys, quantities, checks, kinds : what of the program is about it
         picture : str - the command that draws it
         see : terms next to it

@@ -148,7 +148,6 @@ class Option(NamedTuple):
 
     Parameters
         flags : names, the long one first
-        help : str
         type : makes the value from its text; bool: the option has no value
         metavar : str or None - what stands for the value in --help; None: its type
         minimum, most : bounds of a number

@@ -62,7 +62,6 @@ def template(kind: Kind, name: str = "") -> str:
     """The text of a template: the schema's line, the example, and the keys that it leaves out as comments.
 
     Parameters
-        kind : Kind
         name : what the design is called; empty: it is named after its file
     Raises
         LookupError - for a kind without an example in `gearlink.designs`

@@ -144,7 +144,6 @@ class Outcome(NamedTuple):
 
     Fields
         computed : float, or None where the program has none
-        unit : str
         refusal : str - why there is none
     """
 

@@ -15,7 +15,6 @@ class Exploring:
     Fields
         source : str - file of the study, or a store
         store : Path or None - where finished chunks are kept
-        resume : bool
         jobs : int - processes, 0: chosen by the work to be done
         dask : str - address of a scheduler; empty for none
         show : str - index of a design, or mK for the nearest miss of row K of the table why; empty for none

@@ -96,7 +96,6 @@ class Line:
     """One curve without gaps; a closed one runs counter-clockwise.
 
     Attributes
-        layer : str
         pieces : the sampled stretches, each with this curve alone; of a gear those of one pitch
         turns : unit vectors - the places about the axis at which the pieces stand, one after the other
         closed : bool - the last node of the last piece is the first node of the first, to the bit
@@ -214,11 +213,7 @@ def contour(part: Part, tolerance: float, form: CurveForm) -> Contour:
     """Sample a part.
 
     Parameters
-        part : Part
         tolerance : float [mm] - maximum distance of a curve from its chords or cubics
-        form : CurveForm
-    Returns
-        contour : Contour
     Raises
         TooFine - where the tolerance asks for more than MOST_POINTS, with the tolerance that does not
         NoSolution - where a curve does not exist
@@ -349,7 +344,6 @@ def describe(contour: Contour, spec: Any, extra_error: float = 0.0) -> dict[str,
     """The lines of a file's header.
 
     Parameters
-        contour : Contour
         spec : the design's spec
         extra_error : float [mm] - what the file's own rounding adds
     """

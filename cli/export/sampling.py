@@ -102,12 +102,8 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
     """Nodes of a stretch such that chords or cubics stay within the tolerance of every curve.
 
     Parameters
-        stretch : Stretch
         tolerance : float [mm] - maximum distance
-        form : CurveForm
         most : int - maximum number of nodes of all curves
-    Returns
-        sampled : Sampled
     Raises
         TooFine - where that many nodes do not do
     Notes

@@ -92,7 +92,6 @@ class Session:
     """A file under the hand.
 
     Parameters
-        document : Document
         beside : two processes in which what takes longer is computed
     """
 

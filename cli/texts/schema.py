@@ -171,7 +171,6 @@ def spec_keys(kind: Kind, last: str = "", *, entries: bool = False) -> list[Spec
     """The keys of a kind in the order of its model, sections before what they hold, each once.
 
     Parameters
-        kind : Kind
         last : str - the last word of those that are wanted, or a standard term of theirs; all where it is empty
         entries : bool - also those of elements of lists, `forces[].on`, and of entries with names, `bearings.NAME.kind`
     """
@@ -275,7 +274,6 @@ class InnerKey:
     """A key of a design file, also of elements of lists, `motion[].law`, and of entries with names, `sources.NAME.fit`.
 
     Fields
-        path : str
         words : str - meaning; empty where nothing is said
         unit : str - empty: none
         choices : the words that it takes

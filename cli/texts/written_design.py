@@ -24,7 +24,6 @@ def written(
     """The text of a design file.
 
     Parameters
-        kind : Kind
         data : plain data as a design file has it; None leaves a key out
         head : lines of the comment on top
         notes : path -> what is said of that key's value instead of who chooses it

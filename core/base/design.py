@@ -331,7 +331,6 @@ class Design:
         """A table by name, in the units of the design files.
 
         Parameters
-            name : str
             samples : int - rows per revolution or stroke, 2 to ten million; without it the table's own number of rows
         Raises
             UnknownName

@@ -28,7 +28,6 @@ class Findings:
         code : str - "GL301"
         value, limit : (N,) arrays - in the units of design files; NaN where there is none
         fails, warns : (N,) arrays
-        unit : str
     """
 
     code: str

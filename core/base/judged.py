@@ -13,10 +13,8 @@ class Judged(NamedTuple):
     """A value beside its limit, and whether it fails or warns; numbers, or arrays over designs.
 
     Fields
-        rule : Rule
         value, limit : float or (N,) array - in the units of design files
         fails, warns : bool or (N,) array - never both
-        unit : str
     """
 
     rule: Rule

@@ -110,7 +110,6 @@ class KeyResult(NamedTuple):
     """One of the results that a command shows first.
 
     Fields
-        quantity : Quantity
         asked : float or None - what the file asks for, in the quantity's unit
         how : str - "required", "at least" or "at most"; empty where nothing is asked for
         called : str - what this design calls it; empty where all call it the same
@@ -135,7 +134,6 @@ def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tu
 
     Parameters
         design : Design
-        command : str
         quantities : those of the report
     """
     shown = {q.name: q for q in quantities if q.value != []}

@@ -54,8 +54,6 @@ class Shown(NamedTuple):
 
     Fields
         value : float, text or None - None: the message states no number
-        limit : float or None
-        unit : str
         side : how a value that passes stands to the limit
         word : str - what the limit is called
     """

@@ -101,8 +101,6 @@ def train_change(fixed: int) -> int:
 
     Parameters
         fixed : int - R, end gears fixed to a link: 0, 1 or 2; the number J of gears does not matter
-    Returns
-        dF : int
     Raises
         NoSolution - for another R: a train has two ends
     Example

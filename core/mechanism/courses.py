@@ -69,7 +69,6 @@ class Shown(NamedTuple):
 
     Fields
         column : str - its name
-        course : Course
         order : int - 0: the value, 1 to 3: that derivative by the input
         timed : str - the name of the column in real time, where the speed of the input is known
     """

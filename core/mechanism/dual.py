@@ -79,7 +79,6 @@ class Dual:
     """Gains of all errors at one output, over the inputs of a mechanism.
 
     Parameters
-        mechanism : Mechanism
         value : function of the links - the output [mm], with its first derivative at least
         torque_sign : +1 or -1 - sign of what the machine puts on the output
     Notes

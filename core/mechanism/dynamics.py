@@ -100,7 +100,6 @@ def reduced(
     J = sum(m |G'|^2 + J t'^2),  J' = 2 sum(m G'.G'' + J t' t''),  Q = sum m g.G' + sum F.P' + sum T t'
 
     Parameters
-        mechanism : Mechanism
         masses : by link; a link that is left out has none
         applied : forces and torques, springs among them
         gravity : complex [mm/s^2]
@@ -156,7 +155,6 @@ class Reactions:
     Fields
         unknowns : by connection - (unknowns, N) array: X and Y of a pin, N and couple of a guide, F_t, N; [N], [N m]
         torque : (N,) array [N m] - of the drive, in the sense of the input
-        mechanism : Mechanism
     """
 
     unknowns: Mapping[str, Reals]

@@ -104,12 +104,10 @@ class Walk:
     """A motion over its period, or over a range of its input.
 
     Parameters
-        follower : Follower
         start : floats - unknowns at input 0
         range : (start, end) or None - a range, or as many revolutions as bring the mechanism home
         least : int - turns of the input after which it may be home
         is_home : function of a place and of the turns that lead there
-        refusals : Refusals
     """
 
     follower: Follower

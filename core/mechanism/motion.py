@@ -49,7 +49,6 @@ class Motion:
     """The links and joints of one design over its input.
 
     Fields
-        input : Input
         make : function of an array of inputs (N,) [rad or mm], of the order of the highest derivative, and of the side
         outputs : what moves in the end, as sheets and animations show it; of the first one `register` counts the errors
         highest : int - the highest derivative there is; 2 where a law has no third
@@ -142,7 +141,6 @@ class Output(NamedTuple):
 
     Fields
         name : str - as sheets and charts show it
-        course : Course
         phases : stretches of the input with a name and ends [rad or mm], in which one law holds
     """
 

@@ -77,7 +77,6 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
 
     Parameters
         samples : int - angles of a revolution, 360 where none are given; `Rows`: a part of all angles
-        turns : int
     Returns
         angles : (samples * turns,) array [deg], or the part
     Example

@@ -52,8 +52,6 @@ def complete_integral(complement: float) -> float:
 
     Parameters
         complement : float - complementary modulus k' in (0, 1]
-    Returns
-        K : float
     Raises
         NoSolution - when k' is not in (0, 1]
     Notes

@@ -49,8 +49,6 @@ def integral(f: Callable[[float], float], low: float, high: float) -> float:
     Parameters
         f : the function; exact for polynomials up to degree 19
         low, high : float - the interval
-    Returns
-        integral : float
     Notes
         The error falls like rho^-20, rho the sum of half axes (in half intervals) of the largest ellipse around the
         interval in which f is analytic: below 1e-18 where the nearest singularity is two intervals away.

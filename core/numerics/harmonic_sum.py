@@ -17,7 +17,6 @@ class HarmonicSum:
     """constant + sum of amplitude cos(frequency x + phase).
 
     Parameters
-        constant : float
         terms : tuple of (amplitude, frequency, phase)
     Example
         >>> HarmonicSum(1.0, ((2.0, 3.0, 0.0),)).value(0.0)

@@ -29,8 +29,6 @@ def midpoint_mean(f: Callable[[Reals], Reals], span: float, nodes: int) -> float
         f : the function, vectorised
         span : float - length of the interval
         nodes : int - number of nodes n
-    Returns
-        mean : float
     Notes
         For f even about both ends and analytic the error falls geometrically, as exp(-2 pi n d/span) with d
         the distance of the nearest singularity from the real axis.
@@ -118,8 +116,6 @@ def cosine_series(f: Callable[[Reals], Reals], span: float, refusal: str, *, fir
         span : float - half of its period
         refusal : str - what is wrong, and its remedy, where the integral does not settle: the function is too sharp
         first : int - nodes to begin with
-    Returns
-        series : CosineSeries
     Raises
         NoSolution - of that text, when the integral has not settled to 8 ulp with 8192 nodes
     Notes

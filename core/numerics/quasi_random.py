@@ -23,7 +23,6 @@ def halton(first: int, count: int, dimensions: int) -> Reals:
 
     Parameters
         first : int - index of the first point, 1, 2, ...
-        count : int
         dimensions : int - up to 8
     Returns
         points : (count, dimensions) array - in (0, 1)

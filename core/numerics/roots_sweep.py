@@ -77,8 +77,6 @@ def root_between(f: Callable[[Reals], Reals], low: float, high: float, *, tolera
         f : function of a float64 array, returning one like it
         low, high : float - f has opposite signs there; where it has several roots, the first of those that are seen
         tolerance : float - absolute tolerance in x besides two ulp of x
-    Returns
-        x : float
     Notes
         Where a call costs more than its places, a few serve for the dozen of `roots.bracketed_root`: after a round the
         next one looks round the root of the inverse polynomial through five places, four times as far as that

@@ -525,7 +525,6 @@ def reaches(
     """Reaches of axes over all inputs of a motion, searched together.
 
     Parameters
-        motion : Motion
         axes : by letter - the link that an axis stands on, "frame" among them, and the point of it [mm]
         pairs : two letters each; without them every two axes
         samples : int - places over the inputs that are looked at first

@@ -103,9 +103,6 @@ class Gains:
     """The gains of a machine over input angles.
 
     Parameters
-        mechanism : Mechanism
-        output : Output
-        moves : Moves
         torque_sign : +1 or -1 - of what the machine puts on the output
     """
 

@@ -229,7 +229,6 @@ class _Layout(NamedTuple):
     """Small multiples on a page: curves, and below them polar diagrams, in so many columns each.
 
     Fields
-        curves, polars, across, beside : int
         shown : float - height of the mechanism above them, that of a curve being 1
     """
 

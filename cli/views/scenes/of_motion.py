@@ -60,7 +60,6 @@ class Positions:
     """The links of a motion where a scene shows them.
 
     Fields
-        motion : Motion
         inputs : (N,) array [rad or mm]
     """
 

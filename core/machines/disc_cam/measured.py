@@ -108,7 +108,6 @@ class MeasuredCam:
     """A profile by its series, and a follower on it.
 
     Parameters
-        series : Series
         roller : float [mm]
         sense : +1 or -1 - of the cam
         pivot : complex [mm] or None - of an oscillating follower

@@ -254,7 +254,6 @@ def tangent_circle(planet_radius: float, cusps: int, angle: float | None = None)
 
     Parameters
         planet_radius : float [mm]
-        cusps : int
         angle : float or None [rad] - carrier angle between the two points; None: the whole arc, 2 pi/n
     Returns
         L : float [mm]
@@ -319,7 +318,6 @@ def minimax(planet_radius: float, cusps: int, angle: float) -> float:
 
     Parameters
         planet_radius : float [mm]
-        cusps : int
         angle : float [rad] - carrier angle of the dwell, up to the whole arc
     Returns
         L : float [mm]
@@ -368,7 +366,6 @@ def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
 
     Parameters
         planet_radius : float [mm]
-        cusps : int
         tolerance : float [mm] - half the range that is allowed
     Returns
         L : float [mm]

@@ -156,7 +156,6 @@ def function_extremes(bar: FunctionFiveBar, start: float, end: float) -> dict[st
     """Extremes of the output's speed and acceleration per input speed over a range, and their input angles [rad].
 
     Parameters
-        bar : FunctionFiveBar
         start, end : float [rad] - it closes between them
     """
 

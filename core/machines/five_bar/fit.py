@@ -49,7 +49,6 @@ def scattered_starts(
     """Five-bars that close, at fixed places about a given one (no random numbers), the most promising first.
 
     Parameters
-        family : FiveBarFamily
         first : (7,) array - unknowns of the given one
         targets : (N,) complex array
         transmission_angle : float [rad] - the minimum that is allowed
@@ -130,7 +129,6 @@ class PathProblem:
     """Points that the paths of a family shall meet.
 
     Parameters
-        family : FiveBarFamily
         targets : (N,) complex array - about 1 apart
         low, high : (7,) arrays - bounds of the unknowns
         cosine : float - maximum |cos| of the transmission angle

@@ -68,12 +68,9 @@ def fit_function(
     Parameters
         first : FunctionFiveBar - a start; input link and coupler ratio are kept
         start : float [rad] - phi0 of it
-        wanted : Wanted
         transmission_angle : float [rad] - the minimum that is allowed over the interval
         seconds : float or None - budget of time: rounds of starts are begun until it is spent; without one there are
             one round, and the same file gives the same links
-    Returns
-        fit : FunctionFit
     Raises
         NoSolution - where no start came to a five-bar with that transmission angle
     Notes
@@ -271,7 +268,6 @@ class Levelling:
         Parameters
             bar : FunctionFiveBar - it closes over the whole interval
             start : float [rad] - phi0
-            wanted : Wanted
             limit : float - the maximum |cos mu| that is allowed, mu the transmission angle
         """
         s = 0.5 * (

@@ -255,11 +255,7 @@ def structural_error(bar: FunctionFiveBar, start: float, wanted: Wanted) -> Stru
     r(s) = psi(phi0 + dphi s) - psi_wanted(s) - psi0,   psi0 the middle of its maximum and minimum
 
     Parameters
-        bar : FunctionFiveBar
         start : float [rad] - phi0
-        wanted : Wanted
-    Returns
-        error : StructuralError
     Raises
         NoSolution - where the five-bar opens
     Example

@@ -57,7 +57,6 @@ class Guidance:
     """Links that were found.
 
     Fields
-        bar : PathFiveBar
         body, joint : complex [mm] - w_B, w_C in coordinates of the body
         place : complex [mm] - of A, 0 with a fixed frame
         direction : float [rad] - of the frame

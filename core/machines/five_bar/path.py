@@ -122,7 +122,6 @@ def distances(bar: PathFiveBar, offset: complex, targets: Points) -> tuple[Reals
     """Distance of each point from the path, and the input angle of the path's nearest place.
 
     Parameters
-        bar : PathFiveBar
         offset : complex [mm] - u + i v
         targets : (N,) complex array [mm]
     Returns

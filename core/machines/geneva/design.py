@@ -44,7 +44,6 @@ class Geneva:
     """A wheel of radial slots and a crank.
 
     Fields
-        slots, pins : int
         distance : float [mm] - of the axes
         sign : float - +1 external, -1 internal
     Source
@@ -218,7 +217,6 @@ class Outlines:
     """Wheel and driver of a drive.
 
     Fields
-        drive : Geneva
         slot : float [mm] - half the width of a slot
         locking, hollow : float [mm] - radii of the locking disc, and of the wheel's locking arcs
     Source

@@ -61,9 +61,7 @@ class Felt:
     """A member as the main shaft feels it.
 
     Fields
-        place : OnShaft
         phase : float [rad] - of the row on the main shaft
-        loads : LoadsDesign
     """
 
     place: OnShaft

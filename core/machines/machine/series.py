@@ -63,7 +63,6 @@ class OnShaft:
     """A member on the main shaft, or behind another member.
 
     Fields
-        name : str
         design : Design - its own, of `analyze`
         ratio : float - in the units of design files: deg or mm of its input per deg or mm of the driver
         phase : float [deg or mm] - of the driver; of a member on the main shaft 0, as angles count from it
@@ -341,7 +340,6 @@ class OverMachine:
     """The output of a member over the machine angle, as a drive instead makes it.
 
     Fields
-        member : OnShaft
         phase : float [rad] - of its row
     """
 
@@ -380,7 +378,6 @@ class Members:
     """All members of a machine, each behind what drives it.
 
     Parameters
-        spec : MachineSpec
         before : by member - what is known of a machine that differs in some keys, or will be when it is computed
         warnings : bool - whether findings of members that can only warn are wanted
     """

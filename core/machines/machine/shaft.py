@@ -165,7 +165,6 @@ class Swing:
     """The steady swing of the discs under torques that repeat, by harmonic balance.
 
     Fields
-        chain : Chain
         torques : (n, N) array [N m] - on the discs at N equal steps of the period, in the sense of the turning; the
             first disc holds their mean
         turns : int - of the main shaft in the period

@@ -144,12 +144,7 @@ class Place(NamedTuple):
 
 
 class Timing:
-    """Runs and events of all members.
-
-    Parameters
-        spec : MachineSpec
-        members : Members
-    """
+    """Runs and events of all members."""
 
     def __init__(self, spec: MachineSpec, members: Members) -> None:
         self.spec, self.members = spec, members

@@ -113,7 +113,6 @@ class Support(NamedTuple):
     Fields
         faces : function (cam angles, order, side) -> directions and distances of the face as the law has them
         start : float [rad] - direction at cam angle 0
-        sense : int
     """
 
     faces: Callable[[Reals, int, int], tuple[list[Reals], list[Reals]]]

@@ -135,8 +135,6 @@ class _Refusals:
 class Course:
     """The motion over a period, or over the range of the file.
 
-    Parameters
-        structure : Structure
     Notes
         Inputs are in rad, those of a slide in mm.
     Raises
@@ -381,8 +379,6 @@ def wrapped(angle: float) -> float:
 class Start:
     """A mechanism at input 0.
 
-    Parameters
-        structure : Structure
     Raises
         NoSolution - where it has too many or too few freedoms, or does not close
     """
@@ -734,7 +730,6 @@ class AsMade(Start):
 
     Parameters
         structure : Structure - with cams those of the nominal one
-        nominal : Start
         errors : by cam - of what `contact_row` takes
     """
 

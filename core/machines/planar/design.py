@@ -164,7 +164,6 @@ class Meaning(NamedTuple):
         order : int - of the derivative
         side : "max", "max_at", "min", "min_at", or what else it is: "span", "return", "turns", "path"
         timed : bool - in real time
-        unit : str
     """
 
     output: Moved

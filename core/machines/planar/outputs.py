@@ -40,7 +40,6 @@ class Moved:
     Fields
         name : str - as tables and quantities begin with it: of a link `rocker`, of a point `P_x`
         sort : what it is
-        body : int
         place : complex [mm] - of a point on its body
         line : Line or None - along which a place is
         size : float [mm] - unit of length of the system

@@ -180,8 +180,6 @@ def _radii(mesh: GearJoint | RackJoint) -> tuple[float, ...]:
 class PlanarSamples:
     """Samples of a nominal design; `core.studies.tolerance_study.problem.ToleranceAxis`.
 
-    Parameters
-        nominal : PlanarMechanism
     Notes
         The cams are those of the nominal design: their profiles, with an error of their own, under followers as made.
     """
@@ -717,7 +715,6 @@ class _Many:
     """Some samples side by side.
 
     Parameters
-        samples : PlanarSamples
         columns : sizes and plays, (N,) arrays
     """
 

@@ -101,7 +101,6 @@ class Structure:
     """Bodies and joints of a file.
 
     Parameters
-        spec : PlanarSpec
         plays : by pin - by how much the second body's hole is off the first one's, in the frame's directions [mm]
         sizes : by key of the file - numbers in place of those of the file [mm, deg], or (N,) arrays of N mechanisms
     """

@@ -26,7 +26,6 @@ class PlanetLinkage(GearedOutput):
     """The output of a four-bar with a gear on its coupler.
 
     Parameters
-        linkage : FourBar
         ratio : float - i = -z2/z5 for an external mesh, +z2/z5 in a ring gear
         carrier : 'crank' or 'rocker' - link that holds the two gears at their distance
     Raises

@@ -363,8 +363,6 @@ _HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by
 class Follower:
     """The certain steps of a six-bar: unknown are its free directions less those at the start [rad].
 
-    Parameters
-        bar : SixBar
     Example
         >>> from gearlink.core.mechanism.follow import onwards
         >>> from gearlink.core.machines.six_bar.loop import train_relation
@@ -502,7 +500,6 @@ class Course:
     """The motion of a six-bar over a period, or over a range of the input.
 
     Parameters
-        bar : SixBar
         range : (start, end) [rad] or None - a range that holds 0, or as many revolutions as bring the linkage home
     Raises
         NoSolution - where a dead centre is met: with the range of the input that is free of them

@@ -47,7 +47,6 @@ class RackDrive:
     """What the racks of a file make of a stroke.
 
     Parameters
-        given : Racks
         stroke : float [mm] - of the rod end
     Source
         thesis 2.2.2 III (2): the pinion rolls on the fixed rack

@@ -108,7 +108,6 @@ class Pass(NamedTuple):
     Parameters
         body : str - "coupler CD"
         radius : float [mm] - of a roller, 0 of a link
-        axis : Axis
         distance : float [mm] - of the axis from the line of the link or the roller's centre
         turned : float [rad] - how far the gripper has swung then, or the cam rocker turned where it is `by_rocker`
     """
@@ -622,7 +621,6 @@ def room_beside_arm(design: SwingGripper, place: complex) -> float:
     """Minimum distance of a point from the line E-F over the swing; of one that it passes over, the tip's lead on it.
 
     Parameters
-        design : SwingGripper
         place : complex [mm] - in the machine's frame
     Returns
         room : float [mm] - negative where the line passes over the point, by as much as the tip reaches beyond it
@@ -642,7 +640,6 @@ class RollerCourse:
     """The course of a roller on the cam rocker, over the angle of its cam.
 
     Parameters
-        linkage : GripperLinkage
         pivot : complex [mm] - of the cam rocker, seen from the cam axis
         arm : float [mm]
         ahead : float [rad] - of the arm on AC
@@ -1602,8 +1599,6 @@ def tip_path(arm: float, radius: float, distance: float, lead: Reals, turned: Re
         lead : (N,) array [rad] - d of the arm on the line of centres
         turned : (N,) array [rad] - turn of the drum since the handover
         lead_0 : float [rad] - d at the handover; not 0 where the drum stands off the line of the arm
-    Returns
-        path : TipPath
     Notes
         No difference of nearly equal lengths where D = l + R. The gap opens as l D/(2R) d^2, the slip as d^3.
     Example
@@ -1632,7 +1627,6 @@ def speed_difference(path: TipPath, lead: Reals, tip_speed: Reals, drum_speed: f
     v cos(d + psi_F) - (R + gap) Omega
 
     Parameters
-        path : TipPath
         lead : (N,) array [rad] - d
         tip_speed : (N,) array [mm/s] - v along the arm's circle
         drum_speed : float [rad/s] - Omega
@@ -1691,8 +1685,6 @@ def misplacement(pivot: complex, tip: complex, center: complex, radius: float) -
     Parameters
         pivot, tip, center : complex [mm] - E, F at the handover, O
         radius : float [mm] - R
-    Returns
-        off : Misplacement
     Example
         >>> off = misplacement(0j, 300.0 + 0j, 436.0 + 0j, 135.0)
         >>> off.place, off.turn, off.distance

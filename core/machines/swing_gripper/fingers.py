@@ -141,7 +141,6 @@ class FingerCam:
 
     Parameters
         spec : SwingGripperSpec - with fingers
-        timing : Timing
     Source
         swing-gripper paper 1 lets the fingers open at the handover; the cam: own derivation
     """

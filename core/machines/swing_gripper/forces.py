@@ -56,9 +56,7 @@ def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masse
     T_in = J_A a_1 + J_E a_4 k_4 + J_CD a_3 k_3 + m Re(conj(v_G/w_1) a_G),  k_i = w_i/w_1
 
     Parameters
-        linkage : GripperLinkage
         motion : GripperMotion - of order 2, derivatives by theta
-        masses : Masses
         shaft_speed : float [rad/s] - Omega of the cylinder shaft
     Returns
         torque : (N,) array [N m] - positive in the sense of a growing rocker angle
@@ -90,8 +88,6 @@ class RockerInertia:
     """Inertia torques of both rockers over the turn.
 
     Parameters
-        linkage : GripperLinkage
-        masses : Masses
         shaft_speed : float [rad/s]
     """
 

@@ -59,7 +59,6 @@ class GripperLinkage:
     """Four-bar A-C-D-E driven at ED by the law of the gripper; of many, whose numbers are columns, a row for each.
 
     Parameters
-        law : SixPhaseLaw
         input_pivot, output_pivot : complex [mm] - A and E
         input, coupler, output : float [mm] - AC, CD, ED
         output_direction : float [rad] - of ED at the pick-up position
@@ -241,7 +240,6 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
     |AC - CD| <= |AD| <= AC + CD,   mu_C >= 1e-3,   mu_D >= 1e-3 for every swing angle
 
     Parameters
-        linkage : GripperLinkage
         limit : float [rad] - transmission angle that the remedy aims at
     Raises
         NoSolution - with the cylinder angle, and what to change by how much
@@ -364,10 +362,7 @@ def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
     """Check the closed form of the linkage by Newton-Raphson on the vector loop.
 
     Parameters
-        linkage : GripperLinkage
         motion : GripperMotion - of any order
-    Returns
-        ways : TwoWays
     Raises
         NoSolution - where Newton-Raphson finds no position of the assembly
     Notes
@@ -393,7 +388,6 @@ def closed_form_error(linkage: GripperLinkage, motion: GripperMotion) -> Reals:
     The Newton-Raphson step from the closed form's position, whose residual is computed with 40 digits
 
     Parameters
-        linkage : GripperLinkage
         motion : GripperMotion - of any order
     Returns
         error : (N,) array [rad]

@@ -1087,7 +1087,6 @@ def smallest_idlers(trial: Trial, count: int, *, rising: bool, shafts: bool) -> 
     """The smallest idler of each design that keeps the limits and clears the shafts; or the limits alone, if none does.
 
     Parameters
-        trial : Trial
         count : int - of the designs
         rising : bool - whether all idlers above one that keeps the limits keep them
         shafts : bool - whether there are shafts to clear

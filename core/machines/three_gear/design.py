@@ -640,8 +640,6 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
 
     Parameters
         links : FourBar [mm]
-        train : GearTrain
-        spec : ThreeGearSpec
         own : dict of GearPair - meshes with teeth of their own; None: standard teeth
     """
     module, shafts = spec.gears.module, spec.shafts
@@ -712,7 +710,6 @@ def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
 
     Parameters
         layout : Layout - gears 1, idler and 5
-        train : GearTrain
         limit : float [mm] - minimum gap
     """
     crank, _, output = layout.gears

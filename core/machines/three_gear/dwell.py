@@ -48,7 +48,6 @@ class Output(GearedOutput):
 
     Parameters
         linkage : FourBar [mm]
-        train : GearTrain
         places : list of float [rad] - where the output stands, where that is known
     Example
         >>> import math

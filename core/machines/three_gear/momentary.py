@@ -192,8 +192,6 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
         r1, r3, r5 : float [mm] - reference radii
         eccentricity : float [mm] - e = AB, crank length, e_lo < e < e_hi; the linkage is a crank-rocker for
             e < r1 and a drag link, if it turns at all, for e > r1
-    Returns
-        tangency : Tangency
     Raises
         NoSolution - for a crank outside (e_lo, e_hi): there the output stops for no frame
     Notes
@@ -463,8 +461,6 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii, negative for a gear in internal mesh with the idler
-    Returns
-        shape : Shape
     Raises
         NoSolution - for gears whose output never just stops: a crank gear that is a ring round the idler, or an output
             ring that does not reach round the whole train; without a ring as `eccentricity_range`
@@ -511,8 +507,6 @@ def ring_tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tange
     Parameters
         r1, r3, r5 : float [mm] - signed reference radii
         eccentricity : float [mm] - crank length
-    Returns
-        tangency : Tangency or None
     Example
         >>> found = ring_tangency(24.0, 17.0, -54.0, 22.0)
         >>> round(found.frame, 12)
@@ -537,7 +531,6 @@ def ring_standstills(output: GearedOutput, radii: tuple[float, float, float]) ->
     phi = atan2(-r1 s, -w) - atan2(-r5 s, S x - w),   w = (P X + g)/(2 S x),   s = sign((r1 + r3)(r3 + r5)) sqrt(1 - X)
 
     Parameters
-        output : GearedOutput
         radii : r1, r3, r5, signed [mm]
     Returns
         places : list of float [rad] - ascending in [0, 2 pi)

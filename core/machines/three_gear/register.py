@@ -72,8 +72,6 @@ State = frozenset[str]
 class ThreeGearSamples:
     """The samples of one drive.
 
-    Parameters
-        nominal : ThreeGearFourBar
     Notes
         A pin's play at A or D shifts the loop as a whole; at B and C only its component along the coupler and along
         the rocker counts, since the gears stand on the pins. Gear teeth scatter in `register` alone.
@@ -281,7 +279,6 @@ class MeshStates:
     """What the checks of both meshes say at the centre distances of many drives.
 
     Parameters
-        nominal : ThreeGearFourBar
         lengths : 4 float [mm] - crank, coupler, rocker, frame of it
         names : of the checks
     Notes
@@ -467,7 +464,6 @@ class DriveSamples:
     """What a study asks of many drives near a nominal one.
 
     Parameters
-        nominal : ThreeGearFourBar
         lengths : crank, coupler, rocker, frame - (N,) arrays [mm]
         frame_turn : (N,) array [rad] - by how much the line A-D is turned: crank angles count from the nominal line
     """

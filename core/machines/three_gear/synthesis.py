@@ -247,8 +247,6 @@ def smallest_idler(
         addendum : float - h_a*
         clear : function of linkage and idler - whether no gear reaches a shaft; where no idler does, shafts do not
             count: only more teeth on crank and output gear, or thinner shafts, help there
-    Returns
-        idler_teeth : int
     Raises
         NoSolution - with key `gears.idler` where no idler keeps both limits: which one stands in the way and what is
             reached at best; where no idler gives a design at all, the refusal of the last one as it came

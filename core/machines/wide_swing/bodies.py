@@ -61,7 +61,6 @@ def beside(link: str, axis: Axis, distance: float, remedy: str, end: str = _ENDS
 
     Parameters
         link : str - "the device"
-        axis : Axis
         distance : float [mm] - minimum over the motion
         remedy : str - what would clear it
         end : str - which shaft must end where
@@ -204,7 +203,6 @@ def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
     """Minimum distance of a slider's rod from a place over the swing [mm].
 
     Parameters
-        drive : SliderDrive
         swing : float [rad]
         place : complex [mm] - from D, the direction in which the slider is farthest being real
     Example

@@ -263,7 +263,6 @@ def end_of_contact(cam: WideSwingCam, side: float = -1.0) -> tuple[float, float]
     """Where the roller leaves the profile on one side of k*, whose rest its slot there has cut away.
 
     Parameters
-        cam : WideSwingCam
         side : float - -1 before k*, 1 behind it
     Returns
         k, turn : floats - fraction of the stroke, and angle of the law there
@@ -311,7 +310,6 @@ def roller_before_middle(cam: WideSwingCam, k: float) -> float:
     r_p = min over t of |d|^2/(-2 d n), d = z(k) - z(t), k < t <= 1/2
 
     Parameters
-        cam : WideSwingCam
         k : float - below 1/2
     Returns
         r_p : float [mm] - infinite where every roller does
@@ -341,7 +339,6 @@ def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:
     R = (rho0^2 + rho1^2 - 2 rho0 rho1 cos M)/(2 (rho0 - rho1 cos M)), M = Theta(k) - Theta(0)
 
     Parameters
-        cam : WideSwingCam
         k : float - the second point of the circle, the dissertation's is 0.1
     Returns
         R : float [mm] - negative with the centre away from the cam axis
@@ -373,7 +370,6 @@ def middle_radius_estimate(cam: WideSwingCam, k: float = 0.45) -> float:
     R = (rho_k^2 + rho_m^2 - 2 rho_k rho_m cos M)/(2 rho_k sin M), M = |Theta(k)|
 
     Parameters
-        cam : WideSwingCam
         k : float - the second point of the circle, the dissertation's is 0.45
     Returns
         R : float [mm]
@@ -590,8 +586,6 @@ class StrokeCam:
 
         Parameters
             k : (N,) array - fractions of the stroke, 0 to 1
-        Returns
-            points : CamPoints
         Raises
             NoSolution - for k outside 0 to 1, or a profile that does not exist
         Notes

@@ -208,8 +208,6 @@ def least_pivot_ratio_pneumatic(swing: float, extension_ratio: float = STANDARD_
     Parameters
         swing : float [rad] - gamma, 0 to 340 deg
         extension_ratio : float - q = extended over retracted length, above 1; 13/9 is the dissertation's
-    Returns
-        pivot_ratio : float
     Raises
         NoSolution - for a swing outside (0, 340 deg] or q not above 1
     Notes
@@ -240,8 +238,6 @@ def least_pivot_ratio_spring(
         swing : float [rad] - gamma, 0 to 340 deg
         stretch_ratio : float - epsilon = mounting stretch over stroke, >= 0
         arm, closed_length, end_fittings : float [mm] - r_d, length of the closed coils l_0, of the hooks l_k
-    Returns
-        pivot_ratio : float
     Raises
         NoSolution - for a swing outside (0, 340 deg], a length that is not positive, or epsilon < 0
     Notes
@@ -282,8 +278,6 @@ def least_pivot_ratio_spring_material(
         stretch_ratio : float - epsilon, >= 0
         stretch_capacity : float - eta = allowable stretch over closed length, about 1 to 2 for steel
         end_fittings_ratio : float - l_k/r_d, >= 0
-    Returns
-        pivot_ratio : float
     Raises
         NoSolution - for a swing outside (0, 340 deg], epsilon < 0, eta <= 0 or l_k < 0
     Example

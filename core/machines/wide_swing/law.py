@@ -303,8 +303,6 @@ class ElasticLaw:
 
         Parameters
             k : (N,) array - fraction of the stroke, 0 to 1
-        Returns
-            view : MiddleView
         Raises
             NoSolution - for k outside 0 to 1
         """
@@ -466,8 +464,6 @@ def legacy_law(
         inertia : function of the share of the swing - j = j0 + (1 - j0) b_kp^2 with a slider; None: 1, of a rocker
             alone, whose halves are mirror images
         steps : int - steps in half the stroke, dk = 0.5/steps
-    Returns
-        law : LegacyLaw
     Raises
         NoSolution - when |mu - 1| has not fallen to 1e-12 in 100 passes, or the rocker leaves its swing during a march
     Notes

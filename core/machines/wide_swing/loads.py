@@ -70,12 +70,7 @@ def _extremes(wanted: Wanted, parts: Parts, joints: Sequence[float] = ()) -> dic
 
 
 class SwingStroke:
-    """A stroke under load, over the fractions k of it.
-
-    Fields
-        at : Stroke
-        loads : WideSwingLoads
-    """
+    """A stroke under load, over the fractions k of it."""
 
     def __init__(self, at: Stroke, loads: WideSwingLoads) -> None:
         self.at, self.loads = at, loads
@@ -408,7 +403,6 @@ class RollerLoad(BearingLoad):
     """What the bearings of the rollers bear over a revolution: of rollers that differ the one that lasts shortest.
 
     Parameters
-        loads : WideSwingLoads
         bearing : Bearing of the file
     Notes
         A roller runs in the strokes of its cam and in the rest after each; in between it is clear of the other cam.
@@ -476,11 +470,7 @@ def _run(stroke: SwingStroke, exponent: float) -> Reals:
 
 
 class StrokesInARow:
-    """All strokes one after the other, each over the places 2 i + k, so that a search looks at all of them at once.
-
-    Parameters
-        loads : WideSwingLoads
-    """
+    """All strokes one after the other, each over the places 2 i + k, so that a search looks at all of them at once."""
 
     def __init__(self, loads: WideSwingLoads) -> None:
         self.loads, self.strokes = loads, loads.strokes

@@ -233,7 +233,6 @@ class OscillatingCam(StrokeCam):
     z = e^{i chi}(-1 + lambda e^{i (phi - phi_0)}) a, lambda = r/a = 1/(1 + gamma b/|chi'|) at k*, phi_0 = phi(k*)
 
     Parameters
-        drive : CrankRockerDrive
         law : StrokeLaw - law of motion of the wide-swing rocker; with a slider that of `aimed_law`
         center_distance, roller_radius : float [mm] - a, r_p
     Raises
@@ -489,7 +488,6 @@ def way_home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Home:
     psi'''(k) = 2 Im(C'''/C - 3 C'' C'/C^2 + 2 (C'/C)^3)
 
     Parameters
-        cam : OscillatingCam
         turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole revolution
         order : 2 or 3 - of the derivatives
     Notes
@@ -516,7 +514,6 @@ def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:
     """Crank angle from the start of the stroke at which the cam, on its way home, stands as at k [rad].
 
     Parameters
-        cam : OscillatingCam
         k : (N,) array - fractions of the stroke
     Returns
         turned : (N,) array [rad] - from a whole revolution at k = 0 down to the stroke's at k = 1
@@ -543,8 +540,6 @@ def greatest_need(cam: OscillatingCam) -> Extreme:
     Where the device holds the rocker of the stroke to its cam with a force above J phi'', it holds it on the way home
     only with a force above that ratio of it.
 
-    Parameters
-        cam : OscillatingCam
     Returns
         need : Extreme - at least 1, for at both ends the crank is the same; among places where the roller touches;
             inf where it does so at the place at which a slider's device has no torque
@@ -569,7 +564,6 @@ def need_home(cam: OscillatingCam, k: Reals) -> Reals:
     (m k'^2 + j phi_k k'')/(m/span^2), m that of the stroke; of a rocker alone j = 1 and m its acceleration
 
     Parameters
-        cam : OscillatingCam
         k : (N,) array - fractions of the stroke, without 1/2, where the rocker has no acceleration in it
     """
     back = way_home(cam, crank_angle(cam, k))

@@ -144,7 +144,6 @@ class SliderLaw:
     Parameters
         device : Pneumatic or Spring
         swing : float [rad] - gamma
-        drive : SliderDrive
         rocker_share : float - j0 = J0/J_ref in [0, 1]; 0 is the pure slider mass of the dissertation
     Raises
         NoSolution - for a swing outside (0, 340 deg], j0 outside [0, 1], a slider without stroke, and, where
@@ -482,7 +481,6 @@ class AimedLaw:
     """Law of a rocker with a slider, seen from k*, where its roller passes the line of centres of its cam.
 
     Parameters
-        law : SliderLaw
         place : float - k*
         near : float [rad] - how far beside it times and B - b are integrated; 0 for a cam that does not turn evenly,
             which needs none

@@ -78,7 +78,6 @@ class Stroke:
         name : str - of its roller: main, return
         cam : AnyCam - that guides it
         start : float [rad] - input angle at which it starts
-        design : WideSwingDesign
         shaft : complex [mm] - the cam's axis
         toward : complex - unit vector from the rocker's axis to it, over that of the working stroke
     """

@@ -334,7 +334,6 @@ class _OnArc(NamedTuple):
     Fields
         center : complex [mm] - C
         radius : float [mm] - of the centre's path, negative in a concave flank
-        rocker : Rocker
         start : float [rad] - direction of the pivot A from the cam axis at cam angle 0
     """
 
@@ -385,7 +384,6 @@ class _OnLine(NamedTuple):
     Fields
         normal : float [rad] - direction of the line's normal
         height_of_line : float [mm]
-        rocker : Rocker
         start : float [rad] - direction of the pivot A from the cam axis at cam angle 0
     """
 

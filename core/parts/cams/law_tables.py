@@ -112,7 +112,6 @@ def course(law: Law, steps: int) -> Table:
     """Rise and its derivatives over x, ends included.
 
     Parameters
-        law : Law
         steps : int - equal steps of x
     Returns
         table : Table - named after the law, steps + 1 rows

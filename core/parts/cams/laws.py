@@ -540,8 +540,6 @@ def law(definition: Any, phase: Phase | None = None) -> Law:
             {half-scca: ...}, {velocity-scca: ...}, {quintic: kappa}, {septic: kappa}, and the mappings with a `type`
             of `shaped_spec`, or their models
         phase : Phase - what a design says of the phase; None: nothing
-    Returns
-        law : Law
     Raises
         NoSolution - unknown name (with the nearest one), shares or kappa out of range, or half-simple-harmonic
     Notes

@@ -101,8 +101,6 @@ def translating(
         first, second : (N,) arrays [mm/rad, mm/rad^2] - y', y''; the second serves the curvature only
         direction : complex - u, unit vector of the travel (1 along +x, -1 along -x, 1j along +y)
         offset : float [mm] - e, distance of the line of travel from the cam axis on the right of u
-    Returns
-        path : RollerPath
     Raises
         NoSolution - direction is not a unit vector
     Example
@@ -299,8 +297,6 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
 
     Parameters
         cam_angle, path, sense, roller_radius : as of profile_points
-    Returns
-        cam : CamProfile
     Raises
         NoSolution - the pitch curve stands still, or the roller passes the relative pole
     Notes

@@ -30,8 +30,6 @@ class Place(NamedTuple):
 class AlongPath:
     """A pair's values from A to E.
 
-    Parameters
-        data : GearData
     Notes
         Between B and D one pair of flanks carries all, outside a second one helps: from a third to two thirds of the
         load ("third"), or half of it. This holds for contact ratios of 1 to 2; beyond, no load is given.

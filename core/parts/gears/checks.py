@@ -120,7 +120,6 @@ def gear_check(
 
     Parameters
         name : str - one of GEAR_CHECKS
-        pair : GearPair
         limits : the `limits` section of a spec
         mesh : str - name of the mesh in a design with several, put before the message
         shifts : bool - the design file has keys of the profile shifts, which messages may then name

@@ -52,12 +52,10 @@ class GearData:
     """A gear pair with its widths, allowances, load and materials; parts are computed when they are asked for.
 
     Parameters
-        pair : GearPair
         face_width : (float, float) or None [mm] - of gear 1 and 2
         pins : (float or None, float or None) [mm] - diameters of measuring balls; None: a preferred one
         allowances : ((upper, lower), (upper, lower)) or None [mm] - E_sns, E_sni of gear 1 and 2
         distance_allowance : float or None [mm] - plus and minus of the centre distance
-        load : Load or None
         materials : (Material, Material)
         edition : int - of ISO 6336
         load_share : str - "third" or "half", what a pair of flanks carries beside another

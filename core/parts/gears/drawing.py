@@ -20,7 +20,6 @@ def drawing_table(data: GearData, hands: tuple[str, str] | None = None) -> Table
     """The table `drawing`, a row per line of the drawing: item, symbol, gear 1, gear 2, unit.
 
     Parameters
-        data : GearData
         hands : (str, str) or None - hands of helix
     Source
         DIN 3966 for what belongs on a drawing, from memory
@@ -53,7 +52,6 @@ def rack_drawing(rack: RackMesh, hands: tuple[str, str] | None = None) -> Table:
     """The table `drawing` of a gear on a rack, whose column is empty where a rack has no such line.
 
     Parameters
-        rack : RackMesh
         hands : (str, str) or None - hands of helix
     Source
         DIN 3966 for what belongs on a drawing, from memory

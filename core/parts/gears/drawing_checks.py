@@ -264,7 +264,6 @@ def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: b
 
     Parameters
         name : str - one of DRAWING_CHECKS
-        data : GearData
         limits : the `limits` section of a spec
         radial : bool - the pinion is to be put into its ring along the line of centres
     Source
@@ -283,8 +282,6 @@ def pair_check(
     """The findings of one of GEAR_CHECKS or DRAWING_CHECKS on a pair of gears.
 
     Parameters
-        name : str
-        data : GearData
         limits : the `limits` section of a spec
         mesh : str - name of the mesh in a design with several, put before the message
         shifts : bool - the design file has keys of the profile shifts, which messages may then name

@@ -50,7 +50,6 @@ class GearedOutput(OutputRates):
     """The output of one linkage; every result is found once.
 
     Parameters
-        linkage : FourBar
         train : Shares, or gears that have those numbers
     Raises
         NoSolution - of an angle or a rate: where the linkage does not close, of a rate also in a dead centre; of

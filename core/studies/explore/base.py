@@ -281,7 +281,6 @@ def single(base: Base, changes: Changes, names: Iterable[str], codes: Sequence[s
     """Compute a design by its class.
 
     Parameters
-        base : Base
         changes : paths and values that differ from it
         names : quantities that are wanted
         codes : of the checks that are wanted

@@ -54,7 +54,6 @@ class Chunk:
     """What is kept of a share of the designs.
 
     Fields
-        designs, feasible : int
         misses : by the name of the row: a code, the text of a condition, or "refused KEY"
         rows : (M, 1 + columns) array - index of the design and the columns of `Problem.shown`, of the designs that are
             not dominated within the chunk

@@ -45,7 +45,6 @@ def refined(problem: Problem, kept: Reals) -> Extra:
     """Designs that local search finds from the kept ones.
 
     Parameters
-        problem : Problem
         kept : (N, 1 + columns) array - of a sample, from `Found.kept_rows`
     Returns
         extra : Extra - of all designs that were tried and satisfy everything, those that no other of them dominates
@@ -154,7 +153,6 @@ class Found:
     """The result of a study.
 
     Parameters
-        problem : Problem
         total : Chunk - of all designs together
         extra : Extra - what local refinement found
     """

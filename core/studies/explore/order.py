@@ -256,7 +256,6 @@ class Sample:
     Parameters
         variables : any
         count : int - a power of two
-        seed : int
     """
 
     def __init__(self, variables: Sequence[Variable], count: int, seed: int) -> None:

@@ -31,7 +31,6 @@ class Problem:
 
     Parameters
         spec : StudySpec - with its base in `design`
-        base : Base
         variables : tuple of Variable
         objectives, conditions : what is sought
         must_pass : tuple of str - codes that a design must pass, ascending

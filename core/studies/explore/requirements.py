@@ -36,10 +36,8 @@ class Objective:
 
     Parameters
         name : str - of a quantity or of a defined one
-        expression : Expression
         sign : float - 1 to be minimised, -1 to be maximised
         resolution : float - a difference that is worth nothing, in `unit`
-        unit : str
     """
 
     name: str
@@ -58,7 +56,6 @@ class Condition:
         expression : Expression - what is compared
         sign : str - one of `COMPARED`
         limit : float or str - a number, or a word
-        unit : str
     """
 
     text: str

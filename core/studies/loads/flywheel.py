@@ -204,7 +204,6 @@ class SteadyRun:
     """Speed over the input angle where the energy is E0 + W(phi).
 
     Fields
-        energy : Energy
         flywheel : float [kg m^2]
         start : float [J] - E0, energy at input angle 0
     """

@@ -100,7 +100,6 @@ class BearingLoad:
     """What a bearing bears: its rating life, or its pressure where it is a plain one.
 
     Fields
-        design : LoadsDesign
         bearing : Bearing of the file, or None
     """
 
@@ -148,8 +147,6 @@ class PinLoad(BearingLoad):
     """A pin's force and its relative turning.
 
     Parameters
-        design : LoadsDesign
-        name : str
         bearing : Bearing of the file, or None
     """
 
@@ -234,12 +231,7 @@ class PinLoad(BearingLoad):
 
 
 class MeshLoad:
-    """A mesh's tangential force over the period.
-
-    Parameters
-        design : LoadsDesign
-        name : str
-    """
+    """A mesh's tangential force over the period."""
 
     def __init__(self, design: LoadsDesign, name: str) -> None:
         self.design, self.name = design, name

@@ -56,11 +56,9 @@ class Machine:
     Fields
         motion : Motion - of its links
         masses : by link
-        sources : Sources
         gravity : complex [mm/s^2]
         speed : float [rad/s] - of the input, signed, not 0
         turns : int - input turns after which everything repeats
-        friction : Coefficients or None
         joints : input angles of a revolution where the machine's own accelerations jump [rad]
         shaft_inertia : float [kg m^2] - of what turns evenly with the input
         more : what acts besides the sources, a spring of the machine's own

@@ -31,11 +31,7 @@ if TYPE_CHECKING:
 
 
 class Running:
-    """Flywheel, motor and the speed over the input angle of one design.
-
-    Parameters
-        design : LoadsDesign
-    """
+    """Flywheel, motor and the speed over the input angle of one design."""
 
     def __init__(self, design: LoadsDesign) -> None:
         self.design = design

@@ -164,7 +164,6 @@ class PeriodicResponse:
         bend : function of input angles - x'' [per rad^2]
         period : float [rad]
         breaks : input angles where x'' or a derivative jumps
-        oscillator : Oscillator
         speed : float [rad/s] - Om > 0
     """
 

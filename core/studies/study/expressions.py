@@ -43,7 +43,6 @@ class Expression:
 
     Parameters
         text : str - as the file has it
-        tree : Tree
         operations : int - signs and functions of the tree
     Example
         >>> found = parse("frame_length + 2 * tip_radius[1]")

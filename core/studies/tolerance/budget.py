@@ -25,7 +25,6 @@ class Contribution:
     """A source along the stretch.
 
     Fields
-        source : str
         gain : (N,) array, real or complex - error per mm of the source; complex for a vector of any direction
         limit : float [mm] - maximum deviation of the source
         sigma : float [mm] - its standard deviation; of a vector that of one component

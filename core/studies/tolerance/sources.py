@@ -88,7 +88,6 @@ class Scatter:
         kind : str - "size" of the file, "center", "pin" (a vector), "gear" (an eccentricity)
         nominal : float - of a size or centre distance, in the unit of the file
         law : Law - of the deviation; of a pin's diametral clearance; of a gear's eccentricity
-        entry : ToleranceSource
     """
 
     key: str
@@ -179,7 +178,6 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
     """The sources of a design, in the order of the file.
 
     Parameters
-        section : Tolerance
         spec : the design's spec
         parts : Parts - of its kind
     Raises

@@ -43,7 +43,6 @@ class Problem:
     Parameters
         base : Base - of the nominal design, its links in the file
         nominal : Design - of that base
-        section : Tolerance
         axis : ToleranceAxis or None - of kinds that compute many designs at once
         asked : Base - as the file has it, with what it asks to be searched for
         commands : of the file

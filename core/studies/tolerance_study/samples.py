@@ -184,7 +184,6 @@ def replicated(made: Problem, function: Callable[[Problem, int], Found], work: i
     """What a function finds in every replication, in order.
 
     Parameters
-        made : Problem
         function : of the problem and the replication's number - of a module, so that it can be sent elsewhere
         work : int - designs of a replication, as it tells `seen`
     """

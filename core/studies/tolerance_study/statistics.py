@@ -55,7 +55,6 @@ class Result:
     """All of a study.
 
     Fields
-        samples : int
         good : Yield - of everything together
         missing : float - share of designs that do not exist
         passes : Yield by code and by requirement
@@ -76,7 +75,6 @@ class Counted:
     """What is kept of a replication.
 
     Fields
-        count : int
         good, missing : float - shares
         passes : share by code and by requirement
         numbers : Numbers by quantity, None where it does not apply
@@ -156,7 +154,6 @@ def capabilities(rows: Spread, lower: float | None, upper: float | None) -> tupl
     C_p = (U - L)/(q99.865 - q0.135),   C_pk = min((U - q50)/(q99.865 - q50), (q50 - L)/(q50 - q0.135))
 
     Parameters
-        rows : Spread
         lower, upper : float or None - limits; C_p needs both, C_pk one
     Returns
         cp, cpk : Estimate or None - None without limits, or where nothing varies

@@ -44,7 +44,6 @@ class View(NamedTuple):
         room : Box - within which words beside it stand
         axis : complex [mm of paper]
         low, high : complex [mm] - corners of what is drawn, about the axis
-        scale : float
         start : complex or None [mm] - place of the start mark
     """
 

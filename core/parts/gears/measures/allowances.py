@@ -114,7 +114,6 @@ class MeshPlay:
            - (E_1 + E_2)/cos(beta) r_w1'/r_1
 
     Parameters
-        pair : GearPair
         off : float [mm] - centre distance (its magnitude) less that of the pair
         thinned : float [mm] - E_1 + E_2, allowances of both tooth thicknesses in the normal section
     Raises
@@ -181,7 +180,6 @@ class Backlash:
     """The minimum and the maximum backlash.
 
     Parameters
-        pair : GearPair
         upper, lower : (float, float) [mm] - allowances E_sns, E_sni of both gears
         distance_allowance : float [mm] - plus and minus of the centre distance
     """

@@ -26,7 +26,6 @@ class Ball:
     inv(alpha_K) = D/(z m cos(alpha_n)) - eta + inv(alpha_t),  eta = (pi/2 - 2 x tan(alpha_n))/z
 
     Parameters
-        pair : GearPair
         gear : int - 0 or 1
         diameter : float [mm] - D
         shift : float or None [module] - generating profile shift; None: the nominal one

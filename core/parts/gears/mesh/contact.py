@@ -22,7 +22,6 @@ class PathOfContact:
     """Where the flanks of a pair touch.
 
     Parameters
-        pair : GearPair
         face_width : float or None [mm] - common width of both gears, for the overlap of helical ones
     Returns
         Properties: lengths in mm; a pair is (gear 1, gear 2).

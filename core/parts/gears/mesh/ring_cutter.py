@@ -32,7 +32,6 @@ class ShapedRing:
         module : float [mm]
         teeth : int - z_2, negative
         shift : float [module] - x_2
-        cutter : PinionCutter
         pressure_angle, helix_angle : float [rad] - alpha_n, beta
     Returns
         Properties: lengths in mm; radii are magnitudes.

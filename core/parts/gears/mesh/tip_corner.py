@@ -95,7 +95,6 @@ class TipCorner:
     """The corner of the mating gear's tip beside the root fillet of a gear, where contact ends on the flank above it.
 
     Parameters
-        pair : GearPair
         gear : int - 0 or 1, whose fillet; that of a ring needs its cutter
     Notes
         Both flanks touch, whatever the backlash. Compared with drawn teeth that are turned in mesh.

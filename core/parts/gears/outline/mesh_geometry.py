@@ -73,8 +73,6 @@ def ring_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLik
 class MeshGeometry:
     """A gear pair at the moment when two flanks touch at the pitch point.
 
-    Parameters
-        pair : GearPair
     Returns
         Properties: points in mm, angles in rad.
     Raises

@@ -156,8 +156,6 @@ class RackProfile:
 class RackGeometry:
     """A gear on a rack at the moment when two flanks touch at the pitch point; the gear drives counter-clockwise.
 
-    Parameters
-        rack : RackMesh
     Returns
         Properties: points in mm, angles in rad.
     Example

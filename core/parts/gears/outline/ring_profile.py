@@ -30,7 +30,6 @@ class RingProfile:
         at_base : float [rad] - half the angle of a tooth, measured to where its flank would meet the base circle
         tip_roll : float - tan of the pressure angle at the tip
         shaped : ShapedRing or None - as its cutter shapes it; None: flanks down to the root circle, sharp corners
-        helical : bool
     Example
         >>> ring = RingProfile.of(GearPair(module=2.0, teeth=(48, -62), given_shift=(0.0, 0.0)))
         >>> [name for name, *_ in ring.pieces()]

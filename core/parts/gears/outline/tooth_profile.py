@@ -98,7 +98,6 @@ class ToothProfile:
         """The profile of gear 0 or 1 of a pair, as its tool cuts it; a pair without tools has those of ISO 53.
 
         Parameters
-            pair : GearPair
             gear : int - 0 or 1
         Raises
             NoSolution - as the class
@@ -253,7 +252,6 @@ def half_tooth(profile: ToothProfile, chord_error: float) -> Points:
     """Points of the profile from the middle of a space to the middle of the next tooth.
 
     Parameters
-        profile : ToothProfile
         chord_error : float [mm] - maximum distance of a chord from its curve
     Returns
         points : (N,) array [mm] - counter-clockwise, from the x axis to the polar angle pi/z
@@ -294,7 +292,6 @@ def outline(profile: ToothProfile, chord_error: float, teeth: int | None = None,
     """The outline of a gear, or of some of its pitches.
 
     Parameters
-        profile : ToothProfile
         chord_error : float [mm] - maximum distance of a chord from its curve
         teeth : int or None - how many pitches, counter-clockwise; None: all of them, closed
         first : float [rad] - polar angle of the middle of the first space

@@ -86,7 +86,6 @@ class Conditions:
         contacts : (float, float) - load contacts per revolution
         shaft, misalignment, modification : of the face load factor; F_betax in um
         long_life : float - factor at 1e10 load cycles
-        pitting_allowed : bool
         mean_stress : (float, float) or None - Y_M; None: 0.7 of idlers, else 1
         generating_root : bool - the root has the generating shift of the upper allowance, else the nominal one
         generated_ring : bool - the fillet of a shaped ring is the one that its cutter leaves, else that of ISO 6336-3
@@ -226,9 +225,7 @@ def limit_line(
     """The line of a material: `static` and `reference` without the life factor.
 
     Parameters
-        endurance : Endurance
         static, reference : float [N/mm^2] - limit stress times the influence factors of each knee
-        long_life : float
         pitting_allowed : bool - some pits are allowed: known of steels that are not nitrided
     """
     bend = None

@@ -18,7 +18,6 @@ class FlankStrength:
 
     Parameters
         path : PathOfContact - with the common width where stresses are wanted
-        load : Load or None
         materials : (Material, Material)
     Returns
         Properties: stresses in N/mm^2; None where data are missing or the formula is out of its range.
@@ -145,7 +144,6 @@ def hertz_pressure(path: PathOfContact, rho: float, line_force: float, materials
     p = sqrt(w (1/rho_1 + 1/rho_2) cos(beta_b)/(pi sum (1 - nu^2)/E))
 
     Parameters
-        path : PathOfContact
         rho : float [mm] - rho_1, radius of curvature of gear 1 in the transverse section
         line_force : float [N/mm] - normal force per length of the line of contact
         materials : (Material, Material)

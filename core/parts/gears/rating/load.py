@@ -44,7 +44,6 @@ class Load:
         torque : float or None [N m] - T_1
         force : float or None [N] - F_t
         speed : float or None [1/min] - n_1, for sliding speeds
-        factors : Factors
         given : frozenset of str - names of the factors that the file gives
     """
 

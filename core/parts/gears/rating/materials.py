@@ -50,7 +50,6 @@ class MaterialClass:
         notch : float or None [mm] - rho', None: by the yield point
         surface : str - which line of Y_RrelT: "steel", "normalized" or "iron"
         size : str - which line of Y_X: "soft", "hard" or "iron"
-        flank, root : Endurance
         static_notch : str - which form of Y_drelT at the static knee: "case", "nitrided", "soft" or "none"
         yield_strength : float [N/mm^2] - of a class that names no steel
     """

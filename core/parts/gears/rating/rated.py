@@ -40,7 +40,6 @@ class Bodies:
         path : PathOfContact - with the common width
         widths : (float, float) [mm] - of each gear, for its tolerances
         materials : (Material, Material) - for E
-        conditions : Conditions
 
     Source
         ISO 6336-1:2006, as two public programs and three KISSsoft reports have it; the standard was not opened
@@ -171,7 +170,6 @@ class LoadFactors:
     """The load factors of a pair at one point of its spectrum.
 
     Parameters
-        bodies : Bodies
         load : Load - with speed; its factors replace those that `given` names
         given : frozenset of str - names of Factors that the file gives
         point : Point - factors of torque and speed; a torque above 0
@@ -467,7 +465,6 @@ class Rated:
 
     Parameters
         data : GearData - whose nominal stresses do not depend on the rating
-        conditions : Conditions
         load : Load - with speed
         given : frozenset of str - names of the factors that the file gives
     Raises

@@ -26,7 +26,6 @@ class RootSection:
     """The root section of one gear of a pair, in normal modules of its virtual spur gear.
 
     Parameters
-        pair : GearPair
         gear : int - 0 or 1
         tool : RackTool - the one that cuts it; of a ring its substitute
         shift : float [module] - generating profile shift x_E
@@ -231,11 +230,9 @@ class RootStress:
     sigma_F = F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa,  S_F = sigma_Flim Y_ST Y_N.../sigma_F
 
     Parameters
-        path : PathOfContact
         tools : (RackTool, RackTool) - those that cut the gears; of a ring the substitute of its cutter
         shifts : (float, float) [module] - generating shifts x_E, of the upper allowances
         widths : (float, float) or None [mm] - face widths
-        load : Load or None
         materials : (Material, Material)
         edition : int - 2006, or 2019, whose Y_beta and f_eps were not compared with any published value
         rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid

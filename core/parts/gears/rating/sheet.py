@@ -27,12 +27,10 @@ class Line:
     """A line of the sheet.
 
     Fields
-        symbol, name, unit : str
         values : (gear 1, gear 2) - gear 2 None of what is the pair's
         rule : str - "R4 ISO 6336-1"
         inputs : str - "name=value, ..."
         origin : str - "computed", "given" or "default"
-        confirmed : bool
     """
 
     symbol: str

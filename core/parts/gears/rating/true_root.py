@@ -67,7 +67,6 @@ class RootContour:
 
     Parameters
         teeth : float - |z_n|
-        ring : bool
         base, tip, root : float - radii
         at_base : float [rad] - of a gear half the angle of a space on the base circle, of a ring that of a tooth
         fillet : function of an array - points of the fillet, the middle of the space on the x axis, from root to flank
@@ -94,7 +93,6 @@ class RootContour:
         """The contour of a gear of a pair; None of a ring whose cutter is not known, and of a tooth that is none.
 
         Parameters
-            pair : GearPair
             gear : int - 0 or 1
             shift : float [module] - generating shift
             rim : float or None [module] - thickness below the root circle
@@ -422,7 +420,6 @@ class TrueRoot:
     """The stress along the fillets of a tooth of module 1 under F_t/b = 1 N/mm.
 
     Parameters
-        contour : RootContour
         load_radius : float [module] - where the load acts on the virtual gear
         pressure_angle : float [rad] - alpha_n
     Source

@@ -61,8 +61,6 @@ def _has_mesh(data: GearData) -> bool:
 class BlockingContour:
     """The lines about a design, and its margins.
 
-    Parameters
-        data : GearData
     Example
         >>> contour = BlockingContour(GearData(pair=GearPair.from_shift(1.0, (17, 40), (0.3, 0.2))))
         >>> contour.crossings(contour.line("undercut 1"), 0.5)[0] == contour.data.pair.min_shift_no_undercut[0]

@@ -265,7 +265,6 @@ class Carried:
         quality : str
         crowned : bool - the helix is crowned
         width_ratio : float - maximum b/d_1
-        required : Required
     """
 
     torque: float

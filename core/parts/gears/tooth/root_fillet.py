@@ -32,7 +32,6 @@ class RackCutRoot:
     Parameters
         teeth : int - z >= 1
         shift : float [module] - generating profile shift x
-        tool : RackTool
         pressure_angle : float [rad] - alpha_n
         helix_angle : float [rad] - beta
     Returns

@@ -186,7 +186,6 @@ class TrainKeys(ToothKeys):
         """The keys of the mesh of two gears by their places in the lists, but for the load.
 
         Parameters
-            one, other : int
             module : float [mm]
             pressure_angle : float [deg]
         """

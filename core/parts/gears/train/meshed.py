@@ -542,7 +542,6 @@ def judgement(name: str, found: Mapping[str, GearData], spec: Any) -> dict[str, 
     """The findings of one of TRAIN_CHECKS on each mesh.
 
     Parameters
-        name : str
         found : GearData of the meshes by name
         spec : of the design, with sections `gears` and `limits`
     """

@@ -117,7 +117,6 @@ class Train:
         """One of the pairs with all that its drawing and its rating need.
 
         Parameters
-            place : Place
             pair : GearPair - of `pairs`
             rim : float or None [mm] - outer radius of its ring, where the file gives it
         Raises

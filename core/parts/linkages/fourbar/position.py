@@ -211,7 +211,6 @@ def solve(
     nu = arg(D - B),  R = sqrt(P Q),  gamma = atan2(R, (P - Q)/2),  s = assembly
 
     Parameters
-        linkage : FourBar
         crank_angle : float [rad] - any real angle
         order : 0..3 - 0 angles only, 1 velocities, 2 accelerations, 3 jerks too
         velocity, acceleration, jerk : float [rad/s, rad/s2, rad/s3] - motion of the crank; the defaults give

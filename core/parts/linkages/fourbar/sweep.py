@@ -104,7 +104,6 @@ def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Real
     """Directions of coupler and rocker as unit vectors, and rates, without any angle: the raw kernel.
 
     Parameters
-        linkage : FourBar
         crank_angle : (N,) array [rad]
         order : 0..3 - highest derivative with respect to the crank angle
         out : (4 + 2 order, N) array - filled and returned when given
@@ -395,7 +394,6 @@ def solve_by_newton(
     theta = theta(anchor) + h theta' + h^2 theta''/2,   h = phi - anchor,   then `polish`
 
     Parameters
-        linkage : FourBar
         crank_angle : array of any shape [rad] - in any order
         over : (first, last) [rad] - range of the motion: anchors stand every five degrees from its lower end, and at
             its upper one; None: the range of the angles themselves
@@ -476,10 +474,7 @@ def polish(linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, r
     """Newton-Raphson from given starts, all positions at once.
 
     Parameters
-        linkage : FourBar
         crank_angle, coupler_angle, rocker_angle : arrays that broadcast [rad] - the starts
-    Returns
-        sweep : NewtonSweep
     Raises
         NoSolution - when the loop is not closed within 16 eps of the sum of lengths after 20 iterations (no
             position exists, or a dead centre is too near), or the assembly changed sides
