@@ -274,10 +274,8 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
     if design.crank_teeth != design.output_teeth:
         with at_key("gears.output"):
             raise NoSolution(
-                (
-                    "the charts hold for I = 1, equal teeth of crank and output gear: this design has "
-                    f"{design.crank_teeth} and {design.output_teeth}"
-                ),
+                "the charts hold for I = 1, equal teeth of crank and output gear: this design has "
+                f"{design.crank_teeth} and {design.output_teeth}",
                 fix=f"set gears.output to {design.crank_teeth}, or use analyze",
             )
     place = chart.place(design)
@@ -289,10 +287,8 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
         )
     if place is None:
         raise NoSolution(
-            (
-                "the output of this design never steps back (minimum speed ratio "
-                f"{design.speed_ratio_min:.6g}), so it is not in the chart {chart.name}"
-            ),
+            "the output of this design never steps back (minimum speed ratio "
+            f"{design.speed_ratio_min:.6g}), so it is not in the chart {chart.name}",
             fix="shorten the frame, or use the chart nonuniformity",
         )
     family = design.crank_length * math.sqrt(0.5 * (1.0 + design.frame_ratio**2))

@@ -405,10 +405,8 @@ class CamGear(Grooved):
         over = math.floor(top.value / math.pi + _IN_LINE) * math.pi
         if over >= low.value - _IN_LINE:
             raise NoSolution(
-                (
-                    f"angle of the lever: {short(math.degrees(low.value))} to {short(math.degrees(top.value))} deg "
-                    f"(within 0 to 180 deg; at {short(math.degrees(over))} deg it is collinear with its carrier)"
-                ),
+                f"angle of the lever: {short(math.degrees(low.value))} to {short(math.degrees(top.value))} deg "
+                f"(within 0 to 180 deg; at {short(math.degrees(over))} deg it is collinear with its carrier)",
                 key="lever.angle",
                 fix="set lever.angle so that this angle stays between 0 and 180 deg, or use fewer sun teeth",
             )
@@ -481,10 +479,8 @@ class CamLinkage(Grooved):
         open_at = far if far.value >= most else near if near.value <= least else None
         if open_at is not None:
             raise NoSolution(
-                (
-                    f"coupler and follower do not close: distance BD {short(open_at.value)} mm (reach "
-                    f"{within(least, most, 'mm')}) at input angle {short(math.degrees(open_at.place))} deg"
-                ),
+                f"coupler and follower do not close: distance BD {short(open_at.value)} mm (reach "
+                f"{within(least, most, 'mm')}) at input angle {short(math.degrees(open_at.place))} deg",
                 key="links",
                 fix="change links.coupler or links.follower, or phase",
             )

@@ -245,10 +245,8 @@ def _constants(pairs: Sequence[Sequence[float]]) -> tuple[float, float, float]:
     )
     if small:
         raise NoSolution(
-            (
-                "these pairs give no linkage of finite length: two of them are equal, or rocker and crank turn in "
-                "proportion"
-            ),
+            "these pairs give no linkage of finite length: two of them are equal, or rocker and crank turn in "
+            "proportion",
             fix="move one of function.pairs",
         )
     k1, k2 = over / det, under / det
@@ -473,10 +471,8 @@ class SwingSynthesis(_Synthesis):
                 found, crank = ratios_with_frame(task.frame / task.crank, p, q), task.crank
         elif p == 0.0:
             raise NoSolution(
-                (
-                    "with a quick_return_ratio of 1 there is no optimum: the shorter the crank, the better the "
-                    "transmission angle"
-                ),
+                "with a quick_return_ratio of 1 there is no optimum: the shorter the crank, the better the "
+                "transmission angle",
                 key="swing.quick_return_ratio",
                 fix="give crank and frame, or a ratio above 1",
             )

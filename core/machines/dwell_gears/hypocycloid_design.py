@@ -225,10 +225,8 @@ def require_cusps(planet_radius: float, cusps: int) -> None:
         raise NoSolution(f"planet radius is {planet_radius:g} mm; it must be positive and finite")
     if cusps < 3:
         raise NoSolution(
-            (
-                f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight "
-                "line, with 1 it is at rest"
-            ),
+            f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight "
+            "line, with 1 it is at rest",
             fix="use 3 times or more",
         )
 
@@ -431,10 +429,8 @@ class SlottedArm:
     def __post_init__(self) -> None:
         if not 0.0 < self.ratio < self.teeth - 1.0:
             raise NoSolution(
-                (
-                    f"distance of the point from the planet's axis: {self.ratio:g} planet radii (above 0, below "
-                    f"{safely_below(self.teeth - 1.0)})"
-                ),
+                f"distance of the point from the planet's axis: {self.ratio:g} planet radii (above 0, below "
+                f"{safely_below(self.teeth - 1.0)})",
                 fix=f"set point.ratio between 0 and {safely_below(self.teeth - 1.0)}",
             )
 
@@ -669,10 +665,8 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
         if ring % planet:
             near = max(3, round(ring / planet))
             raise NoSolution(
-                (
-                    f"ring {ring} over planet {planet} teeth is {unlike(ring / planet, round(ring / planet))}: the "
-                    "curve does not close in one revolution of the carrier"
-                ),
+                f"ring {ring} over planet {planet} teeth is {unlike(ring / planet, round(ring / planet))}: the "
+                "curve does not close in one revolution of the carrier",
                 key="gears.ring",
                 fix=f"use a whole multiple, for example {near * planet}",
             )

@@ -91,10 +91,8 @@ def teeth_for_times(
     if not found:
         of = f"{driven} teeth" if driven is not None else f"{LEAST_DRIVEN} to {MOST_DRIVEN} teeth"
         raise NoSolution(
-            (
-                f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.4g')} in {short(share)} "
-                f"of a cycle with a wheel of at most {most_teeth} teeth"
-            ),
+            f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.4g')} in {short(share)} "
+            f"of a cycle with a wheel of at most {most_teeth} teeth",
             fix="raise most_teeth, use fewer groups, or another driven_turn",
         )
     _, full, n, z = min(found)
@@ -159,10 +157,8 @@ class MutilatedGear:
         needed = self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
         step = self.driven_teeth // math.gcd(self.driven_teeth, self.stops)
         raise NoSolution(
-            (
-                f"{_teeth(self.group_teeth)} advance the driven gear {short(self.group_teeth / self.driven_teeth)} "
-                f"revolutions; it must stop at a locking arc ({self.stops} of them)"
-            ),
+            f"{_teeth(self.group_teeth)} advance the driven gear {short(self.group_teeth / self.driven_teeth)} "
+            f"revolutions; it must stop at a locking arc ({self.stops} of them)",
             fix=f"set gears.group_teeth to a multiple of {step}, or use {amount(needed, 'stop')}",
         )
 

@@ -287,10 +287,8 @@ class FiveBarParts(Meshed):
         frame, (first, second) = links.frame or 0.0, self.center_distance
         if not abs(first - second) < frame < first + second:
             raise NoSolution(
-                (
-                    f"the idler does not reach: its centre distances are {first:g} and {second:g} mm, so the "
-                    f"frame must lie between {abs(first - second):g} and {first + second:g} mm, not {frame:g}"
-                ),
+                f"the idler does not reach: its centre distances are {first:g} and {second:g} mm, so the "
+                f"frame must lie between {abs(first - second):g} and {first + second:g} mm, not {frame:g}",
                 key="links.frame",
                 fix="change the idler",
             )

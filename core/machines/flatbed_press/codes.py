@@ -35,9 +35,8 @@ SYNC_LENGTH = Rule(
 REGISTER = Rule(
     "GL506",
     "cylinder does not make a whole number of revolutions",
-    "The cylinder does not make a whole number of revolutions per sheet; or its print passes the forme again "
-    "while the bed returns (a "
-    "warning).",
+    "The cylinder does not make a whole number of revolutions per sheet; or its print passes the forme again while "
+    "the bed returns (a warning).",
     "The next sheet would meet another part of the cylinder; a cylinder that makes several revolutions must be lifted.",
     "Set cylinder.gear_ratio to a whole number.",
     "cylinder.gear_ratio = 1, 2, 3 ... within 1e-9; of 2 and more q - q_s in [j C, j C + L] with p - p_s in [0, L] "

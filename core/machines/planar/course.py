@@ -486,10 +486,8 @@ class Start:
         excess = drives - freedoms
         times = "once" if excess == 1 else f"{excess} times"
         return NoSolution(
-            (
-                f"the joints {', '.join(joints)} constrain the mechanism {times} more than it can take, "
-                f"{_count(freedoms, 'degree of freedom', 'degrees of freedom')} for {_count(drives, 'drive')}"
-            ),
+            f"the joints {', '.join(joints)} constrain the mechanism {times} more than it can take, "
+            f"{_count(freedoms, 'degree of freedom', 'degrees of freedom')} for {_count(drives, 'drive')}",
             key="links",
             fix="omit one link or one joint",
         )
@@ -504,10 +502,8 @@ class Start:
         rows = np.flatnonzero(np.abs(left[:, rank:]).max(axis=1) > _SHARE).tolist()
         free = sorted(set((np.flatnonzero(np.abs(right[rank:]).max(axis=0) > _SHARE) // 3 + 1).tolist()))
         raise NoSolution(
-            (
-                f"the joints {', '.join(self.joints_of(system, rows))} constrain their links more than once, while "
-                f"{' and '.join(self.structure.names[body] for body in free)} can still move"
-            ),
+            f"the joints {', '.join(self.joints_of(system, rows))} constrain their links more than once, while "
+            f"{' and '.join(self.structure.names[body] for body in free)} can still move",
             key="links",
             fix="change the joints between them",
         )
@@ -625,10 +621,8 @@ class Start:
         links = [self.structure.names[body] for body in sorted({int(column) // 3 + 1 for column in columns})]
         joints = self.joints_of(system, block.rows)
         raise NoSolution(
-            (
-                f"{_listed(links)} {'do' if len(links) > 1 else 'does'} not close at the start ({', '.join(joints)} "
-                f"open by {gap:.4g} mm at the rough directions)"
-            ),
+            f"{_listed(links)} {'do' if len(links) > 1 else 'does'} not close at the start ({', '.join(joints)} "
+            f"open by {gap:.4g} mm at the rough directions)",
             key="start",
             fix=f"change {_starts(self.structure)}, or the lengths of {_listed(links)}",
         )

@@ -252,10 +252,8 @@ class Structure:
         many = getattr(cosine, "ndim", 0) > 0
         if not many and cosine >= 1.0:
             raise NoSolution(
-                (
-                    f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {short(distance)} "
-                    "mm, less than their base radii together"
-                ),
+                f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {short(distance)} "
+                "mm, less than their base radii together",
                 key=f"meshes.{name}.module",
                 fix=f"set module to {2.0 * distance / abs(z1 + z2):.6g} mm, or omit it",
             )

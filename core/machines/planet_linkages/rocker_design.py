@@ -135,10 +135,8 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
         greatest = max(greatest, below_low)
     reach = math.degrees(greatest + swing)
     raise NoSolution(
-        (
-            f"swing: {unlike(math.degrees(swing), reach)} deg (limit <= {math.floor(reach * 10.0) / 10.0:g} deg "
-            "with these links and gears)"
-        ),
+        f"swing: {unlike(math.degrees(swing), reach)} deg (limit <= {math.floor(reach * 10.0) / 10.0:g} deg "
+        "with these links and gears)",
         fix=f"reduce swing, or use more teeth on the coupler gear (now z2/z5 = {short(abs(ratio))})",
     )
 

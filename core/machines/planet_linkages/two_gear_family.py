@@ -81,10 +81,8 @@ def frame_range(family: Family) -> tuple[float, float]:
     if family.ring:
         if not a < min(b, c):
             raise NoSolution(
-                (
-                    f"crank by the gears: {unlike(a, min(b, c))} mm (limit < {unlike(min(b, c), a)} mm, the shorter of "
-                    "coupler and rocker; with a ring gear only a crank-rocker stops)"
-                ),
+                f"crank by the gears: {unlike(a, min(b, c))} mm (limit < {unlike(min(b, c), a)} mm, the shorter of "
+                "coupler and rocker; with a ring gear only a crank-rocker stops)",
                 key="links.coupler" if b <= c else "links.rocker",
                 fix=f"set links.coupler and links.rocker above {safely_above(a)} mm, or reduce gears.module",
             )

@@ -128,10 +128,8 @@ class BackStepSynthesis(TwoGearFourBar):
         if angle < least:
             limit = safely_above(math.degrees(least))
             raise NoSolution(
-                (
-                    f"{words} is out of reach: at least {limit} deg as a crank-rocker with these gears and links, "
-                    "whose output steps back with every frame"
-                ),
+                f"{words} is out of reach: at least {limit} deg as a crank-rocker with these gears and links, "
+                "whose output steps back with every frame",
                 fix=f"set back_step.angle to at least {limit} deg, or use more teeth on the ring gear",
             )
         frames = always.with_step(angle)

@@ -140,15 +140,12 @@ class Timing:
         if swing < 360.0:
             return
         raise NoSolution(
-            (
-                f"swing of the arm: {unlike(swing, 360.0)} deg (limit < 360 deg; speed of the tip R/l_EF = "
-                f"{law.speed:.4g})"
-            ),
+            f"swing of the arm: {unlike(swing, 360.0)} deg (limit < 360 deg; speed of the tip R/l_EF = "
+            f"{law.speed:.4g})",
             key="arm.length",
             fix=(
                 f"make the arm longer than {safely_above(self.spec.arm.length * swing / 360.0)} mm, the cylinder's "
-                f"radius less than {safely_below(self.spec.cylinder.radius * 360.0 / swing)} mm, or the phases "
-                "shorter"
+                f"radius less than {safely_below(self.spec.cylinder.radius * 360.0 / swing)} mm, or the phases shorter"
             ),
         )
 
@@ -163,9 +160,8 @@ class Timing:
             f"total_swing: {unlike(stated, swing)} deg (laws, phases and R/l_EF give {unlike(swing, stated)} deg)",
             key="total_swing",
             fix=(
-                f"set arm.length to {self.spec.arm.length * swing / stated:.6g}, or change "
-                f"phases.constant by {short / law.speed:+.9g} deg (and another phase as much the other "
-                f"way){free}"
+                f"set arm.length to {self.spec.arm.length * swing / stated:.6g}, or change phases.constant by "
+                f"{short / law.speed:+.9g} deg (and another phase as much the other way){free}"
             ),
         )
 

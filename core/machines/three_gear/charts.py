@@ -134,10 +134,8 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
     if np.any(~(delta > 0.0)) or np.all(wrong):
         at, value = float(ratio[wrong].flat[0]), float(delta[wrong].flat[0])
         raise NoSolution(
-            (
-                f"nonuniformity: {unlike(value, 2.0 * (1.0 - at))} (above 0, below 2 (1 - i3) = "
-                f"{unlike(2.0 * (1.0 - at), value)}; i3 {short(at)})"
-            ),
+            f"nonuniformity: {unlike(value, 2.0 * (1.0 - at))} (above 0, below 2 (1 - i3) = "
+            f"{unlike(2.0 * (1.0 - at), value)}; i3 {short(at)})",
             fix="reduce the nonuniformity, or use an idler of more teeth",
         )
     q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)

@@ -214,11 +214,9 @@ class DwellTask(FamilyTask):
             return frame
         place, longest = always.longest(self.band)
         raise NoSolution(
-            (
-                f"{self._asked(self.band)} (limit <= {safely_below(math.degrees(longest))} deg as a crank-rocker with "
-                f"these gears and this crank, frame {short(place)} mm, or +-{safely_above(math.degrees(least))} deg; "
-                f"its back-step is at least {safely_above(math.degrees(always.least_step[1]))} deg)"
-            ),
+            f"{self._asked(self.band)} (limit <= {safely_below(math.degrees(longest))} deg as a crank-rocker with "
+            f"these gears and this crank, frame {short(place)} mm, or +-{safely_above(math.degrees(least))} deg; "
+            f"its back-step is at least {safely_above(math.degrees(always.least_step[1]))} deg)",
             fix="use a shorter crank",
         )
 

@@ -173,11 +173,8 @@ def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
     high = r1 - 2.0 * max(0.0, r1 - r5) * (r1 / _pole_sum(r1, r3, r5)) ** 2
     if not low < high:
         raise NoSolution(
-            (
-                f"no crank-rocker with a momentary dwell has gears of {short(2 * r1)}, {short(2 * r3)} and "
-                f"{short(2 * r5)} mm reference diameter: crank above {unlike(low, high)} and below "
-                f"{unlike(high, low)} mm"
-            ),
+            f"no crank-rocker with a momentary dwell has gears of {short(2 * r1)}, {short(2 * r3)} and {short(2 * r5)} "
+            f"mm reference diameter: crank above {unlike(low, high)} and below {unlike(high, low)} mm",
             fix="use a larger idler or an output gear not smaller than the crank gear",
         )
     return low, high
@@ -328,10 +325,8 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
         elif eccentricity >= high:
             what = "cannot turn with the frame of its momentary dwell"
         raise NoSolution(
-            (
-                f"crank: {unlike(eccentricity, low if eccentricity <= low else high)} mm, which {what} (for a "
-                f"momentary dwell of these gears above {unlike(low, high)}, below {unlike(high, low)} mm)"
-            ),
+            f"crank: {unlike(eccentricity, low if eccentricity <= low else high)} mm, which {what} (for a "
+            f"momentary dwell of these gears above {unlike(low, high)}, below {unlike(high, low)} mm)",
             fix=f"set the crank between {unlike(low, high)} and {unlike(high, low)} mm, or change the gears",
         )
     return tangency(r1, r3, r5, eccentricity)
@@ -415,10 +410,8 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
     crank2 = (r5 * r5 + found.kappa * r1 * r1 - square) / (found.kappa - 1.0)
     if not found.low**2 < crank2 < min(found.high**2, (r1 + r3) ** 2, (r3 + r5) ** 2):
         raise NoSolution(
-            (
-                f"no balanced linkage with a momentary dwell has gears of {short(2 * abs(r1))}, {short(2 * r3)} and "
-                f"{short(2 * abs(r5))} mm reference diameter"
-            ),
+            f"no balanced linkage with a momentary dwell has gears of {short(2 * abs(r1))}, {short(2 * r3)} and "
+            f"{short(2 * abs(r5))} mm reference diameter",
             fix="omit balanced, give crank or frame",
         )
     return math.sqrt(crank2)

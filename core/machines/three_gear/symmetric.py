@@ -279,19 +279,15 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
     limit = _back_step(1.0, h)
     if not 0.0 < back_step_angle < limit:
         raise NoSolution(
-            (
-                f"back-step within {_deg(2.0 * h)} deg of the crank: {_deg(back_step_angle, limit)} deg (above 0, "
-                f"below {_deg(limit, back_step_angle)} deg)"
-            ),
+            f"back-step within {_deg(2.0 * h)} deg of the crank: {_deg(back_step_angle, limit)} deg (above 0, "
+            f"below {_deg(limit, back_step_angle)} deg)",
             fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
         )
     v = bracketed_root(lambda v: _back_step(v, h) - back_step_angle, 0.0, 1.0)
     if v == 1.0:
         raise NoSolution(
-            (
-                f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is the limit, "
-                f"{_deg(limit)} deg, to rounding, and needs an infinite idler"
-            ),
+            f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is the limit, "
+            f"{_deg(limit)} deg, to rounding, and needs an infinite idler",
             fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
         )
     return -v / (1.0 - v)
@@ -320,11 +316,8 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
     limit = -i3 * math.pi
     if not 0.0 < back_step_angle < limit:
         raise NoSolution(
-            (
-                f"back-step: {_deg(back_step_angle, limit)} deg (above 0, below -i3 * 180 = "
-                f"{_deg(limit, back_step_angle)} "
-                f"deg; i3 {short(i3)})"
-            ),
+            f"back-step: {_deg(back_step_angle, limit)} deg (above 0, below -i3 * 180 = "
+            f"{_deg(limit, back_step_angle)} deg; i3 {short(i3)})",
             fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or use an idler of more teeth",
         )
     n, v = 1.0 - i3, i3 / (i3 - 1.0)
@@ -401,10 +394,8 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     limit: float = dwell_angle_limit(i3)
     if not 0.0 < dwell_angle < limit:
         raise NoSolution(
-            (
-                f"dwell angle: {_deg(dwell_angle, limit)} deg (above 0, below 360 (1 - i3)/(2 - i3) = "
-                f"{_deg(limit, dwell_angle)} deg; i3 {short(i3)})"
-            ),
+            f"dwell angle: {_deg(dwell_angle, limit)} deg (above 0, below 360 (1 - i3)/(2 - i3) = "
+            f"{_deg(limit, dwell_angle)} deg; i3 {short(i3)})",
             fix=f"reduce dwell.angle{_ratio_remedy(dwell_angle)}",
         )
     h: float = half_angle_for_dwell(1.0 - i3, dwell_angle)
@@ -449,10 +440,8 @@ def crank_angle_for_window(i3: float, window: float) -> float:
     limit: float = window_limit(i3)
     if not 0.0 < window < limit:
         raise NoSolution(
-            (
-                f"dwell window: {_deg(window, limit)} deg (above 0, below {_deg(limit, window)} deg with any "
-                f"tolerance that a back-step fills; i3 {short(i3)})"
-            ),
+            f"dwell window: {_deg(window, limit)} deg (above 0, below {_deg(limit, window)} deg with any "
+            f"tolerance that a back-step fills; i3 {short(i3)})",
             fix=f"set dwell.window below {safely_below(math.degrees(limit))} deg",
         )
     h: float = half_angle_for_window(1.0 - i3, window)
@@ -637,10 +626,8 @@ def check_tolerance(i3: float, tolerance: float) -> None:
     if not (tolerance > 0.0 and fills(i3, tolerance)):
         limit = min(math.pi, -0.5 * i3 * math.pi)
         raise NoSolution(
-            (
-                f"dwell tolerance: {_deg(tolerance, limit)} deg (above 0, below {_deg(limit, tolerance)} deg; i3 "
-                f"{short(i3)})"
-            ),
+            f"dwell tolerance: {_deg(tolerance, limit)} deg (above 0, below {_deg(limit, tolerance)} deg; i3 "
+            f"{short(i3)})",
             fix=f"set dwell.tolerance below {safely_below(math.degrees(limit))} deg",
         )
 
@@ -685,10 +672,8 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
     """
     if not window > 2.0 * tolerance:
         raise NoSolution(
-            (
-                f"a uniform motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of the crank: "
-                f"a window of {_deg(window)} deg needs no linkage"
-            ),
+            f"a uniform motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of the crank: "
+            f"a window of {_deg(window)} deg needs no linkage",
             fix=f"set dwell.window above {safely_above(math.degrees(2.0 * tolerance))} deg",
         )
     check_reach(i3, window, tolerance)

@@ -191,10 +191,8 @@ class FamilyTask(Task):
         gears = self.spec.gears
         if not self.general and gears.crank != gears.output:
             raise NoSolution(
-                (
-                    f"this synthesis applies to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
-                    "teeth must be equal"
-                ),
+                f"this synthesis applies to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
+                "teeth must be equal",
                 key="gears.output",
                 fix=f"set output to {gears.crank}, or give {self.section}.crank, frame or balanced as well",
             )

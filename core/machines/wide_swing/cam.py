@@ -672,10 +672,8 @@ class WideSwingCam(StrokeCam):
         if self.layout == "twin-rocker" and self.speed_ratio_peak <= 1.0:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
             raise NoSolution(
-                (
-                    f"peak speed of the rocker over that of the cam: {unlike(self.speed_ratio_peak, 1.0)} (limit > 1 "
-                    "for a twin-rocker)"
-                ),
+                f"peak speed of the rocker over that of the cam: {unlike(self.speed_ratio_peak, 1.0)} (limit > 1 "
+                "for a twin-rocker)",
                 fix=(
                     f"reduce {self.angle_words} to at most {safely_below(0.5 * limit)} deg (possible below "
                     f"{safely_below(limit)} deg), or increase the swing"
@@ -891,11 +889,8 @@ class WideSwingCam(StrokeCam):
         """
         if self._middle_gap < 0.0:
             raise NoSolution(
-                (
-                    f"rocker radius: {unlike(self.rocker_radius, self.nominal_rocker_radius)} mm (limit <= "
-                    f"{unlike(self.nominal_rocker_radius, self.rocker_radius)} mm, beyond it the pitch curve has a "
-                    "loop)"
-                ),
+                f"rocker radius: {unlike(self.rocker_radius, self.nominal_rocker_radius)} mm (limit <= "
+                f"{unlike(self.nominal_rocker_radius, self.rocker_radius)} mm, beyond it the pitch curve has a loop)",
                 fix=f"omit the rocker radius, or set it to at most {safely_below(self.nominal_rocker_radius)} mm",
             )
         if self.loop_margin <= 0.0:

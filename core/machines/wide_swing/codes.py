@@ -87,10 +87,9 @@ FORCE_RESERVE = Rule(
     "more speed the roller lifts off.",
     "Increase unloader.reserve to at least the value in the message, or reduce the speed; the remaining torque grows "
     "with the reserve.",
-    "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam that "
-    "swings in the return stroke the maximum acceleration of the rocker over that of the stroke at the same "
-    "position; in the stroke "
-    "F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
+    "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam "
+    "that swings in the return stroke the maximum acceleration of the rocker over that of the stroke at the same "
+    "position; in the stroke F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
     "own derivation",
     ("force-reserve",),
     ("unloader.reserve", "unloader"),

@@ -58,10 +58,8 @@ class Motion:
         with at_key("unloader.pivot_ratio"):
             if unloader.pivot_ratio <= 1.0:
                 raise NoSolution(
-                    (
-                        f"pivot ratio {unloader.pivot_ratio:g} is not above 1: the base pin must lie outside the "
-                        "circle of the arm"
-                    ),
+                    f"pivot ratio {unloader.pivot_ratio:g} is not above 1: the base pin must lie outside the "
+                    "circle of the arm",
                     fix=f"make unloader.pivot_ratio at least {safely_above(self.usual_pivot_ratio)}",
                 )
             if unloader.type == "pneumatic":

@@ -179,10 +179,8 @@ class SliderLaw:
             nearest = math.remainder(angle, 2.0 * math.pi)
             if abs(nearest) <= 0.5 * self.swing:
                 raise NoSolution(
-                    (
-                        f"the slider's dead centre lies {math.degrees(nearest):.4g} deg from mid-swing, inside "
-                        f"the half swing of {math.degrees(0.5 * self.swing):.4g} deg"
-                    ),
+                    f"the slider's dead centre lies {math.degrees(nearest):.4g} deg from mid-swing, inside "
+                    f"the half swing of {math.degrees(0.5 * self.swing):.4g} deg",
                     fix="turn the swing away from it, or count the rocker's own inertia",
                 )
 

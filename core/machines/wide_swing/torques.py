@@ -454,10 +454,8 @@ def dynamic_coefficient(
     response = TorsionResponse(series, stiffness, damping)
     if stiffness > STIFFEST:
         raise NoSolution(
-            (
-                f"natural frequency times stroke time: {unlike(stiffness, STIFFEST)} (limit <= {STIFFEST:g}; "
-                f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke, a rigid drive)"
-            ),
+            f"natural frequency times stroke time: {unlike(stiffness, STIFFEST)} (limit <= {STIFFEST:g}; "
+            f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke, a rigid drive)",
             fix=(
                 f"omit the section shaft, or make speed {stiffness / STIFFEST:.4g} times higher or "
                 "natural_frequency as much lower"

@@ -417,10 +417,8 @@ def _half_law(name: str, half: FirstHalf) -> Law:
     """s = 2 s0(u/2)/Cv, v = v0(u/2)/Cv, a = a0(u/2)/(2 Cv), j = j0(u/2)/(4 Cv)"""
     if half.end_jumps or half.middle_jumps:
         raise NoSolution(
-            (
-                f"motion law {name!r}: the acceleration is not zero at both ends of the first half, so it "
-                "jumps at the dwell or at the constant speed"
-            ),
+            f"motion law {name!r}: the acceleration is not zero at both ends of the first half, so it "
+            "jumps at the dwell or at the constant speed",
             fix="use half-cycloidal or velocity-345",
         )
     speed = half.peak_velocity

@@ -47,9 +47,8 @@ CONTACT_RATIO = Rule(
     "Use more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
     "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
     "limits.contact_ratio (1.1), warns up to 0.1 above, and below 1 whatever the limit; of helical gears with "
-    "face_width eps_gamma is checked; fails below 1 with the gears as far out of mesh as "
-    "center_distance_allowance lets "
-    "them",
+    "face_width eps_gamma is checked; fails below 1 with the gears as far out of mesh as center_distance_allowance "
+    "lets them",
     "ISO 21771; the limit is usual practice",
     ("contact-ratio", AT_LIMITS[0]),
     _TEETH,
@@ -57,9 +56,8 @@ CONTACT_RATIO = Rule(
 INTERFERENCE = Rule(
     "GL204",
     "tip beyond the involute of the mating gear",
-    "A tip circle passes the point where the line of action touches the mating gear's base circle, or that of "
-    "the pinion "
-    "cutter that shapes a ring.",
+    "A tip circle passes the point where the line of action touches the mating gear's base circle, or that of the "
+    "pinion cutter that shapes a ring.",
     "There the mating gear has no involute: the tip digs into its root or jams. A pinion cutter likewise leaves no "
     "involute at the tip of the ring.",
     "Increase the mating gear's profile shift, reduce the addendum of the gear whose tip is too high, or use a cutter "
@@ -124,9 +122,8 @@ TIP_FOULING = Rule(
 FILLET = Rule(
     "GL207",
     "the mating gear's tip meets the root fillet",
-    "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mating "
-    "gear's tip cuts "
-    "into the fillet outside the path of contact.",
+    "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mating gear's "
+    "tip cuts into the fillet outside the path of contact.",
     "The tip of the mating gear runs on the fillet, which is no involute: noise, scoring, jamming.",
     "Increase the profile shift, shorten the mating gear's tips (tip_shortening), or use a tool with a smaller "
     "rounding or a larger addendum. Tips of a ring of full height always reach into the fillet of a standard tool.",

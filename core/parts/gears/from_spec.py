@@ -146,8 +146,7 @@ def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
         low, high = (max(0.0, radius + sign * _MOST_SHIFT * spec.module) for sign in (-1.0, 1.0))
         raise NoSolution(
             f"centre distance: {short(spec.center_distance)} mm, a profile shift of {shift:.4g} (datum line of the "
-            "rack "
-            f"{within(low, high, 'mm')} from the axis)",
+            f"rack {within(low, high, 'mm')} from the axis)",
             key="center_distance",
             fix=f"set center_distance from {within(low, high, 'mm')}",
         )

@@ -281,9 +281,8 @@ def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:
     """Message for a crank position at which the rod does not reach the slide line."""
     return (
         f"rod: {unlike(rod, crank + abs(offset))} mm (limit > {unlike(crank + abs(offset), rod)} mm, crank + offset) "
-        "at "
-        f"crank direction {short(math.degrees(psi))} deg, where it does not reach the slide line\n"
-        f"set rod above {safely_above(crank + abs(offset))} mm"
+        f"at crank direction {short(math.degrees(psi))} deg, where it does not reach the slide line\nset rod above "
+        f"{safely_above(crank + abs(offset))} mm"
     )
 
 
@@ -303,10 +302,8 @@ def _check_stroke(stroke: float, rod: float, offset: float) -> None:
         raise NoSolution(f"stroke {stroke:g} mm: it must be positive")
     if not stroke < largest:
         raise NoSolution(
-            (
-                f"stroke: {unlike(stroke, largest)} mm (limit < {unlike(largest, stroke)} mm with rod {short(rod)} "
-                f"mm and offset {short(offset)} mm)"
-            ),
+            f"stroke: {unlike(stroke, largest)} mm (limit < {unlike(largest, stroke)} mm with rod {short(rod)} "
+            f"mm and offset {short(offset)} mm)",
             fix=f"set stroke below {safely_below(largest)} mm, lengthen the rod or reduce the offset",
         )
 

@@ -91,11 +91,8 @@ def require_distance(pair: GearPair, distance: float) -> None:
         return
     sum_of = "difference" if pair.internal else "sum"
     raise NoSolution(
-        (
-            f"centre distance: {unlike(distance, least)} mm (limit >= {unlike(least, distance)} mm, {sum_of} of the "
-            "base "
-            f"radii of gears of {pair.teeth[0]} and {pair.teeth[1]} teeth, module {pair.module:g} mm)"
-        ),
+        f"centre distance: {unlike(distance, least)} mm (limit >= {unlike(least, distance)} mm, {sum_of} of the "
+        f"base radii of gears of {pair.teeth[0]} and {pair.teeth[1]} teeth, module {pair.module:g} mm)",
         fix=f"set the centre distance to at least {safely_above(least)} mm, or use fewer teeth",
     )
 
@@ -110,19 +107,15 @@ def require_shift(pair: GearPair) -> None:
     total = pair.shift_sum
     if not pair.internal and not bound <= total < math.inf:
         raise NoSolution(
-            (
-                f"sum of the profile shifts: {unlike(total, bound)} (limit >= {unlike(bound, total)}: no working "
-                f"pressure angle of {pair.teeth[0]} and {pair.teeth[1]} teeth)"
-            ),
+            f"sum of the profile shifts: {unlike(total, bound)} (limit >= {unlike(bound, total)}: no working "
+            f"pressure angle of {pair.teeth[0]} and {pair.teeth[1]} teeth)",
             fix="raise a shift or use more teeth",
         )
     if pair.internal and not -math.inf < total <= bound:
         raise NoSolution(
-            (
-                f"sum of the profile shifts: {unlike(total, bound)} (limit <= {unlike(bound, total)}: no working "
-                f"pressure angle of {pair.teeth[0]} teeth in a ring of {-pair.teeth[1]}; a positive shift thickens the "
-                "teeth of a ring too)"
-            ),
+            f"sum of the profile shifts: {unlike(total, bound)} (limit <= {unlike(bound, total)}: no working "
+            f"pressure angle of {pair.teeth[0]} teeth in a ring of {-pair.teeth[1]}; a positive shift thickens the "
+            "teeth of a ring too)",
             fix="lower a shift",
         )
 
@@ -135,18 +128,15 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
         return _no_tip_left(pair, gear)
     if pair.teeth[gear] > 0:
         return NoSolution(
-            (
-                f"tip radius of gear {gear + 1}: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base "
-                "radius: no involute is left)"
-            ),
+            f"tip radius of gear {gear + 1}: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base "
+            "radius: no involute is left)",
             fix=f"raise its profile shift or the addendum by at least {missing:.3g} modules",
         )
     teeth = least_ring(pair)
     fix = f"lower its profile shift or its addendum by at least {safely_above(missing, 3)} modules"
     return NoSolution(
         f"tip radius of the ring: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base radius: no "
-        "involute "
-        "is left)",
+        "involute is left)",
         key=pair.teeth_keys[1],
         fix=fix if teeth is None else f"give it at least {teeth} teeth",
     )
@@ -167,11 +157,9 @@ def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:
     distance = pair.center_distance
     fitting = pair.module * distance / pair.reference_center_distance
     return NoSolution(
-        (
-            f"the tips vanish at gear {gear + 1}: tip shortening {-pair.tip_alteration[gear]:.3g} modules, sum of the "
-            f"profile shifts {pair.shift_sum:.3g} (centre distance {short(distance)} mm, {first} and {second} teeth, "
-            f"module {pair.module:g} mm)"
-        ),
+        f"the tips vanish at gear {gear + 1}: tip shortening {-pair.tip_alteration[gear]:.3g} modules, sum of the "
+        f"profile shifts {pair.shift_sum:.3g} (centre distance {short(distance)} mm, {first} and {second} teeth, "
+        f"module {pair.module:g} mm)",
         fix=(
             f"set the centre distance near {short(pair.reference_center_distance)} mm, or use a module "
             f"near {fitting:.3g} mm or more teeth"
@@ -441,10 +429,8 @@ class GearPair(PitchPair):
     def _specific_sliding_of(self, gear: int) -> float:
         if not self._left_at_root(gear) * self.signs[gear] > 0.0:
             raise NoSolution(
-                (
-                    f"tip of gear {2 - gear} beyond the base tangent point of gear {gear + 1}: "
-                    f"{short(-self.interference_margin[1 - gear])} mm (limit < 0 mm: sliding is infinite there)"
-                ),
+                f"tip of gear {2 - gear} beyond the base tangent point of gear {gear + 1}: "
+                f"{short(-self.interference_margin[1 - gear])} mm (limit < 0 mm: sliding is infinite there)",
                 fix="lower its profile shift or the addendum, or use more teeth",
             )
         return self._sliding_at_root(gear)

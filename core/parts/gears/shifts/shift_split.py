@@ -164,10 +164,8 @@ class Diagonal:
         if low > high:
             needed = self.shift_sum + low - high
             raise NoSolution(
-                (
-                    f"sum of the profile shifts: {unlike(self.shift_sum, needed)} (limit >= {safely_above(needed)} for "
-                    "no undercut on both gears)"
-                ),
+                f"sum of the profile shifts: {unlike(self.shift_sum, needed)} (limit >= {safely_above(needed)} for "
+                "no undercut on both gears)",
                 fix="use a larger centre distance or more teeth",
             )
         return low, high

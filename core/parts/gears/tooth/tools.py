@@ -60,10 +60,8 @@ class RackTool:
         if most <= 0.0:
             deepest = (math.pi / 4.0 + self.residual_undercut / math.cos(pressure_angle)) / math.tan(pressure_angle)
             raise NoSolution(
-                (
-                    f"addendum of the tool: {unlike(self.addendum, deepest)} modules (limit < "
-                    f"{unlike(deepest, self.addendum)} modules, where it is pointed)"
-                ),
+                f"addendum of the tool: {unlike(self.addendum, deepest)} modules (limit < "
+                f"{unlike(deepest, self.addendum)} modules, where it is pointed)",
                 fix=f"keep the addendum below {safely_below(deepest)} modules",
             )
         raise NoSolution(

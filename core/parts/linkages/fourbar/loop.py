@@ -258,6 +258,5 @@ def never_closes(reading: Reading) -> str:
     others = math.fsum(lengths[:3])
     return (
         f"closes nowhere: longest link {unlike(lengths[3], others)} mm (limit < {unlike(others, lengths[3])} mm, the "
-        "other "
-        "three together)"
+        "other three together)"
     )

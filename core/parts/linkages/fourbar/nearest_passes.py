@@ -89,10 +89,8 @@ def _angle(p: float, q: float, opposite: float) -> float:
     far = (p + q - opposite) * (p + q + opposite)
     if near < 0.0 or far < 0.0:
         raise NoSolution(
-            (
-                f"the linkage is within rounding of a change point (sides {short(p)}, {short(q)} and "
-                f"{short(opposite)} mm are collinear)"
-            ),
+            f"the linkage is within rounding of a change point (sides {short(p)}, {short(q)} and "
+            f"{short(opposite)} mm are collinear)",
             fix="shorten the crank",
         )
     return 2.0 * math.atan2(math.sqrt(near), math.sqrt(far))

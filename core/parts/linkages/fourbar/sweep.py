@@ -517,12 +517,10 @@ def _checked(linkage: FourBar, phi: Reals, b: Reals, c: Reals) -> Reals:
     if not good.all():
         at, limit = np.unravel_index(np.argmin(good), good.shape), np.broadcast_to(limit, good.shape)
         raise NoSolution(
-            (
-                f"Newton-Raphson found no position of assembly {linkage.assembly:+d} at crank angle "
-                f"{short(math.degrees(phi[at]))} deg: the loop is open by {residual[at]:.3g} mm (limit "
-                f"{limit[at]:.3g} mm) after at most {MOST_ITERATIONS} iterations; the linkage does not "
-                "close there, or the start lies too far off"
-            ),
+            f"Newton-Raphson found no position of assembly {linkage.assembly:+d} at crank angle "
+            f"{short(math.degrees(phi[at]))} deg: the loop is open by {residual[at]:.3g} mm (limit "
+            f"{limit[at]:.3g} mm) after at most {MOST_ITERATIONS} iterations; the linkage does not "
+            "close there, or the start lies too far off",
             fix="use the closed form's position as the start",
         )
     return np.asarray(residual)
