@@ -55,6 +55,22 @@ def refused(message: str, key: str = "", code: str = "GL111") -> PydanticCustomE
     return PydanticCustomError(code, "{message}", {"message": message, "key": key})
 
 
+def only_one(spec: Any, *names: str, at: str = "", needed: str = "") -> None:
+    """Refuse a section with more than one of some keys.
+
+    Parameters
+        at : str - key of the finding; default: the second of those that are given
+        needed : str - what to give where there is none of them; empty: none is needed
+    """
+    given = [name for name in names if getattr(spec, name) is not None]
+    if needed and not given:
+        raise refused(needed, names[0], "GL106")
+    if len(given) > 1:
+        listed = f"{', '.join(names[:-1])} and {names[-1]}"
+        fix = "keep one of them" if len(names) > 2 else f"omit {names[0]} or {names[1]}"
+        raise refused(f"{listed} exclude each other\n{fix}", at or given[1])
+
+
 def plain_name(name: str, key: str = "") -> str:
     """The name of a part: it begins with a letter and has only ASCII letters, digits and _, so that relations, options
     and files can contain it.
@@ -250,14 +266,6 @@ class DrawingLimits(Spec):
     safety_pitting: Ratio = Field(1.0, description="minimum safety against pitting")
     safety_bending: Ratio = Field(1.4, description="minimum safety against tooth breakage")
     safety_scuffing: Ratio = Field(1.8, description="minimum safety against scuffing, with rating")
-
-
-def require_stroke_or_crank(stroke: float | None, crank: float | None) -> None:
-    """Refuse a slider-crank without a size, and one with two."""
-    if stroke is not None and crank is not None:
-        raise refused("stroke and crank exclude each other\nomit stroke or crank", "crank")
-    if stroke is None and crank is None:
-        raise refused("give stroke, or crank instead", "stroke", "GL106")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:

@@ -14,18 +14,7 @@ from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, styl
 from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.scenes.gears import Toothed, train
 from gearlink.cli.views.scenes.of_motion import Positions, Seen
-from gearlink.cli.views.scenes.scene import (
-    DWELL,
-    Chain,
-    Line,
-    Part,
-    Reals,
-    Scene,
-    bands,
-    block,
-    letters,
-    loop,
-)
+from gearlink.cli.views.scenes.scene import DWELL, Chain, Line, Part, Reals, Scene, bands, block, letters, loop
 from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell, outwards
 from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.links import FRAME

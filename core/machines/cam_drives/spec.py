@@ -20,6 +20,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     Teeth,
+    only_one,
     refused,
     unit,
 )
@@ -139,10 +140,7 @@ class LinkedPath(Spec):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        if (self.harmonics is None) == (self.points is None):
-            if self.points is None:
-                raise refused("give harmonics, or points instead", "harmonics", "GL106")
-            raise refused("harmonics and points exclude each other\nomit harmonics or points", "points")
+        only_one(self, "harmonics", "points", needed="give harmonics, or points instead")
         rows = self.points or [[0.0, 0.0, 0.0], [360.0, 0.0, 0.0]]
         ascending = all(before[0] < after[0] for before, after in pairwise(rows))
         if not ascending or rows[0][0] != 0.0 or rows[-1][0] != 360.0 or rows[0][1:] != rows[-1][1:]:

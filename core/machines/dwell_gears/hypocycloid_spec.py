@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, only_one, refused, unit
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import LinkageLimits
 
@@ -47,8 +47,7 @@ class Rod(Spec):
     def _one(self) -> Self:
         if self.length is None and self.rule is None:
             raise refused("give length or rule", "rule", "GL106")
-        if self.length is not None and self.rule is not None:
-            raise refused("length and rule exclude each other\nomit length or rule", "rule")
+        only_one(self, "length", "rule")
         return self
 
 

@@ -13,6 +13,7 @@ from gearlink.core.base.spec import (
     PressureAngle,
     Spec,
     Teeth,
+    only_one,
     refused,
     unit,
 )
@@ -77,12 +78,8 @@ class WantedTimes(Spec):
     @model_validator(mode="after")
     def _one_each(self) -> Self:
         for name in ("motion", "dwell"):
-            given = [key for key in (f"{name}_turns", f"{name}_time") if getattr(self, key) is not None]
-            if not given:
-                raise refused(f"give {name}_turns, or {name}_time with input_speed", f"{name}_turns", "GL106")
-            if len(given) > 1:
-                message = f"{name}_turns and {name}_time exclude each other\nomit {name}_turns or {name}_time"
-                raise refused(message, given[1])
+            needed = f"give {name}_turns, or {name}_time with input_speed"
+            only_one(self, f"{name}_turns", f"{name}_time", needed=needed)
         return self
 
 

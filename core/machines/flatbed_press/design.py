@@ -59,11 +59,7 @@ from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank import (
-    SLIDER_QUANTITIES,
-    SliderCrank,
-    SliderCrankQuantities,
-)
+from gearlink.core.parts.linkages.slider_crank import SLIDER_QUANTITIES, SliderCrank, SliderCrankQuantities
 from gearlink.core.studies.clearance import LEAST_SHAFT_MODULES
 
 if TYPE_CHECKING:

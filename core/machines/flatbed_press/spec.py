@@ -22,9 +22,9 @@ from gearlink.core.base.spec import (
     Teeth,
     TolerancedSpec,
     also,
+    only_one,
     refused,
     require_offset_below_rod,
-    require_stroke_or_crank,
     unit,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
@@ -107,7 +107,7 @@ class Bed(Spec):
 
     @model_validator(mode="after")
     def _one_size(self) -> Self:
-        require_stroke_or_crank(self.stroke, self.crank)
+        only_one(self, "stroke", "crank", needed="give stroke, or crank instead")
         return self
 
     @model_validator(mode="after")
@@ -153,13 +153,9 @@ class PressCam(Spec):
 
     @model_validator(mode="after")
     def _one_transition(self) -> Self:
-        if self.transition_end is None and self.transition_angle is None:
-            message = "either transition_end or transition_angle is needed"
-            message += "\ngive transition_angle, the cam angle from the end of the zone to the maximum lift"
-            raise refused(message, "transition_end", "GL106")
-        if self.transition_end is not None and self.transition_angle is not None:
-            message = "transition_end and transition_angle exclude each other\nomit transition_end or transition_angle"
-            raise refused(message, "transition_angle")
+        needed = "either transition_end or transition_angle is needed"
+        needed += "\ngive transition_angle, the cam angle from the end of the zone to the maximum lift"
+        only_one(self, "transition_end", "transition_angle", needed=needed)
         return self
 
 

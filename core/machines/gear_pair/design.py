@@ -16,13 +16,7 @@ from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQ
 from gearlink.core.parts.gears.codes import AT_LIMITS
 from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.drawing_checks import pair_check
-from gearlink.core.parts.gears.drawing_names import (
-    BESIDE_ROOT,
-    DERIVED,
-    DRAWING_CHECKS,
-    DRAWING_QUANTITIES,
-    lacking,
-)
+from gearlink.core.parts.gears.drawing_names import BESIDE_ROOT, DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.parts.gears.from_spec import data_of, pair_of
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.strength_checks import rests_on

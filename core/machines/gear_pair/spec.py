@@ -13,6 +13,7 @@ from gearlink.core.base.spec import (
     LoadLimits,
     TolerancedSpec,
     also,
+    only_one,
     refused,
     unit,
 )
@@ -76,7 +77,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         if self.center_distance is None and self.profile_shift is None:
             message = "either center_distance or profile_shift is needed\ngive profile_shift: [0, 0] for standard gears"
             raise refused(message, "center_distance", "GL106")
-        exclude_each_other(self, "tip_shortening", "tip_diameter")
+        only_one(self, "tip_shortening", "tip_diameter")
         for place, spanned in enumerate(self.span_teeth or ()):
             z = self.teeth[place]
             if isinstance(z, int) and spanned > abs(z):
@@ -134,12 +135,6 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         for key in ("loads", "tip_diameter", "rating"):
             if getattr(self, key) is not None:
                 raise refused(f"{key} is not supported for a gear on a rack\nomit it", key)
-
-
-def exclude_each_other(spec: Any, first: str, second: str) -> None:
-    """Refuse a file that gives both of two keys."""
-    if getattr(spec, first) is not None and getattr(spec, second) is not None:
-        raise refused(f"{first} and {second} exclude each other\nomit {first} or {second}", second)
 
 
 def require_teeth(teeth: list[Any]) -> None:

@@ -21,14 +21,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
 from gearlink.core.machines.planar.course import Course
 from gearlink.core.machines.planar.dyads import folded
-from gearlink.core.machines.planar.extremes import (
-    Extreme,
-    Pair,
-    Wanted,
-    extremes,
-    quick_return_ratio,
-    turning_points,
-)
+from gearlink.core.machines.planar.extremes import Extreme, Pair, Wanted, extremes, quick_return_ratio, turning_points
 from gearlink.core.machines.planar.gaps import layout
 from gearlink.core.machines.planar.outputs import RATES, Moved, moved, point_output
 from gearlink.core.machines.planar.structure import Structure

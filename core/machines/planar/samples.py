@@ -35,15 +35,7 @@ from gearlink.core.machines.planar.gaps import (
     squared_distance,
 )
 from gearlink.core.machines.planar.structure import GearJoint, Line, RackJoint, Structure
-from gearlink.core.machines.planar.system import (
-    Jets,
-    System,
-    drive_rows,
-    joined,
-    joint_rows,
-    meshes_at_rest,
-    split,
-)
+from gearlink.core.machines.planar.system import Jets, System, drive_rows, joined, joint_rows, meshes_at_rest, split
 from gearlink.core.numerics.arrays import Mask, Points, Reals, distinct
 from gearlink.core.parts.linkages.checks import transmission_judged
 from gearlink.core.parts.linkages.codes import CLOSURE, SHAFT_CLEARANCE, TRANSMISSION_ANGLE

@@ -4,7 +4,18 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
+from gearlink.core.base.spec import (
+    Assembly,
+    Deferred,
+    DrivenSpec,
+    Length,
+    PressureAngle,
+    Spec,
+    Teeth,
+    only_one,
+    refused,
+    unit,
+)
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
@@ -32,10 +43,7 @@ class PlanetGears(TrainKeys):
 
     @model_validator(mode="after")
     def _one_output(self) -> Self:
-        if self.sun is None and self.ring is None:
-            raise refused("give sun or ring, the output gear on A", "sun", "GL106")
-        if self.sun is not None and self.ring is not None:
-            raise refused("sun and ring exclude each other\nomit sun or ring", "ring")
+        only_one(self, "sun", "ring", needed="give sun or ring, the output gear on A")
         if self.ring is not None and self.ring <= self.planet:
             message = f"a planet of {self.planet} teeth does not fit into a ring gear of {self.ring}"
             raise refused(f"{message}\nset gears.ring above {self.planet}", "ring")

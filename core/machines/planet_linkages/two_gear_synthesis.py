@@ -13,18 +13,9 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
 from gearlink.core.machines.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
-from gearlink.core.machines.planet_linkages.two_gear_family import (
-    beyond_reach,
-    momentary_frame,
-)
+from gearlink.core.machines.planet_linkages.two_gear_family import beyond_reach, momentary_frame
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.linkages.band_dwell import (
-    AlwaysStepping,
-    ToleranceDwell,
-    flattest_of,
-    keeping,
-    least_band,
-)
+from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, flattest_of, keeping, least_band
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check, target_check
 
 _MARGIN = 0.01

@@ -15,12 +15,7 @@ from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.checks import gear_ways
 from gearlink.core.parts.gears.codes import FILLET, ROOT_CLEARANCE
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.parts.linkages.slider_crank import (
-    SLIDER_QUANTITIES,
-    SliderCrank,
-    SliderCrankQuantities,
-    slider,
-)
+from gearlink.core.parts.linkages.slider_crank import SLIDER_QUANTITIES, SliderCrank, SliderCrankQuantities, slider
 
 if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.racks import RackDrive

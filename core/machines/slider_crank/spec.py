@@ -15,9 +15,9 @@ from gearlink.core.base.spec import (
     Length,
     LoadLimits,
     SignedLength,
+    only_one,
     refused,
     require_offset_below_rod,
-    require_stroke_or_crank,
     unit,
 )
 from gearlink.core.parts.linkages.slider_crank import SliderCrank, quick_return
@@ -79,7 +79,7 @@ class SliderCrankSpec(DrivenSpec):
     def _one_size(self) -> Self:
         if self.quick_return_ratio is not None:
             return self
-        require_stroke_or_crank(self.stroke, self.crank)
+        only_one(self, "stroke", "crank", needed="give stroke, or crank instead")
         return self
 
     def slider_crank(self) -> SliderCrank:

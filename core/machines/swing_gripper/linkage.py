@@ -28,11 +28,7 @@ from gearlink.core.numerics.together import kept_last
 from gearlink.core.parts.linkages.fourbar.loop import Reading, in_motion
 from gearlink.core.parts.linkages.fourbar.position import FourBar, inverse_reading
 from gearlink.core.parts.linkages.fourbar.position import solve_inverse as solve_one_inverse
-from gearlink.core.parts.linkages.fourbar.sweep import (
-    dead_point_distance,
-    solve_by_newton,
-    solve_inverse,
-)
+from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance, solve_by_newton, solve_inverse
 from gearlink.core.studies.clearance import beside_line
 
 _MOST_KEPT = 8  # as many arrays as the grids of a design's searches, with room

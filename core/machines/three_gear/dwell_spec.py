@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Length, Spec, refused, unit
+from gearlink.core.base.spec import Length, Spec, only_one, refused, unit
 from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
 
 
@@ -19,10 +19,7 @@ class Placing(Spec):
 
     @model_validator(mode="after")
     def _one_placing(self) -> Self:
-        given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
-        if len(given) > 1:
-            message = "crank, frame and balanced exclude each other\nkeep one of them"
-            raise refused(message, given[1])
+        only_one(self, "crank", "frame", "balanced")
         return self
 
 

@@ -18,13 +18,7 @@ from gearlink.core.machines.three_gear.design import CHECKS, QUANTITIES, ThreeGe
 from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.synthesis import LEAST_IDLER, TABLES, FamilyTask, candidates_table, with_analysis
 from gearlink.core.machines.three_gear.train import GearTrain
-from gearlink.core.parts.linkages.band_dwell import (
-    AlwaysStepping,
-    ToleranceDwell,
-    band_of_window,
-    flattest_of,
-    keeping,
-)
+from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, band_of_window, flattest_of, keeping
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 

@@ -5,7 +5,18 @@ from typing import Annotated, Any, ClassVar, Literal, Self, TypeAlias
 from pydantic import AfterValidator, Field, model_validator
 
 from gearlink.core.base.real_speed import other_speed
-from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth, refused, unit
+from gearlink.core.base.spec import (
+    Assembly,
+    Deferred,
+    DrivenSpec,
+    Length,
+    PressureAngle,
+    Spec,
+    Teeth,
+    only_one,
+    refused,
+    unit,
+)
 from gearlink.core.parts.gears.train.keys import TrainKeys
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
 
@@ -57,8 +68,7 @@ class Gears(TrainKeys):
 
     @model_validator(mode="after")
     def _one_ratio(self) -> Self:
-        if self.i3 is not None and self.idler is not None:
-            raise refused("i3 and idler exclude each other\nomit i3 or idler", "i3")
+        only_one(self, "i3", "idler", at="i3")
         if self.i3 is not None and self.crank != self.output:
             message = (
                 f"i3 applies only to equal crank and output teeth\nset output to {self.crank}, or give idler instead "
@@ -126,11 +136,7 @@ class ThreeGearSpec(DrivenSpec):
 
     @model_validator(mode="after")
     def _one_tolerance(self) -> Self:
-        if self.dwell_tolerance is not None and self.dwell_backlash is not None:
-            raise refused(
-                "dwell_tolerance and dwell_backlash exclude each other\nomit dwell_tolerance or dwell_backlash",
-                "dwell_backlash",
-            )
+        only_one(self, "dwell_tolerance", "dwell_backlash")
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
             message = "dwell_tolerance and dwell.tolerance specify the same\nomit dwell_tolerance or dwell.tolerance"
             raise refused(message, "dwell_tolerance")

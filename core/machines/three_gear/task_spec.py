@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Length, SignedLength, Spec, refused, unit
+from gearlink.core.base.spec import Length, SignedLength, Spec, only_one, refused, unit
 from gearlink.core.machines.three_gear.dwell_spec import Placing
 
 
@@ -64,12 +64,8 @@ class Momentary(Spec):
 
     @model_validator(mode="after")
     def _one_length(self) -> Self:
-        given = [name for name in ("eccentricity", "frame", "gap", "balanced") if getattr(self, name) is not None]
-        if not given:
-            raise refused("give eccentricity, frame, gap or balanced", "eccentricity", "GL106")
-        if len(given) > 1:
-            message = "eccentricity, frame, gap and balanced exclude each other\nkeep one of them"
-            raise refused(message, given[1])
+        needed = "give eccentricity, frame, gap or balanced"
+        only_one(self, "eccentricity", "frame", "gap", "balanced", needed=needed)
         return self
 
 

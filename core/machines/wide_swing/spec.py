@@ -20,6 +20,7 @@ from gearlink.core.base.spec import (
     Teeth,
     TolerancedSpec,
     also,
+    only_one,
     refused,
     unit,
 )
@@ -132,15 +133,8 @@ class SpringDevice(Spec):
     @model_validator(mode="after")
     def _one_length(self) -> Self:
         _refuse_reserve(self, "rate")
-        if self.free_length is not None and self.stretch_ratio is not None:
-            raise refused(
-                "free_length and stretch_ratio exclude each other\nomit free_length or stretch_ratio", "free_length"
-            )
-        if self.closed_length is not None and self.stretch_capacity is not None:
-            raise refused(
-                "closed_length and stretch_capacity exclude each other\nomit closed_length or stretch_capacity",
-                "stretch_capacity",
-            )
+        only_one(self, "free_length", "stretch_ratio", at="free_length")
+        only_one(self, "closed_length", "stretch_capacity")
         return self
 
 
@@ -372,8 +366,7 @@ class WideSwingSpec(TolerancedSpec):
     def _sections_agree(self) -> Self:
         if self.slider is None and self.inertia == 0.0:
             raise refused("inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0", "inertia", "GL108")
-        if self.cycle is not None and self.cycle_angle is not None:
-            raise refused("cycle_angle and cycle exclude each other\nomit cycle_angle or cycle", "cycle_angle")
+        only_one(self, "cycle_angle", "cycle", at="cycle_angle")
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()

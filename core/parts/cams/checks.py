@@ -8,16 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import THINNEST
-from gearlink.core.base.report import (
-    NO_NUMBER,
-    Check,
-    Rule,
-    Shown,
-    Status,
-    safely_above,
-    safely_below,
-    without_noise,
-)
+from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Status, safely_above, safely_below, without_noise
 from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, LARGER, PRESSURE_ANGLE
 

@@ -13,14 +13,7 @@ from gearlink.core.base.errors import at_key
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
-from gearlink.core.numerics.extremes import (
-    Extreme,
-    convex_radius,
-    extremes_over,
-    larger,
-    maximum_over,
-    minimum_over,
-)
+from gearlink.core.numerics.extremes import Extreme, convex_radius, extremes_over, larger, maximum_over, minimum_over
 from gearlink.core.numerics.together import Function, kept_last
 from gearlink.core.parts.cams import profile
 from gearlink.core.parts.cams.profile import CamProfile, RollerPath

@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Entries, Spec, refused, unit
+from gearlink.core.base.spec import Entries, Spec, only_one, refused, unit
 from gearlink.core.base.wording import short, unlike
 
 PLAIN = {"unit": "1"}
@@ -165,8 +165,7 @@ class TableLaw(Spec):
 
     @model_validator(mode="after")
     def _ascends(self) -> Self:
-        if self.points is not None and self.file is not None:
-            raise refused("points and file exclude each other\nomit points or file", "file")
+        only_one(self, "points", "file")
         if self.points is None:
             raise refused("a table law needs points, or file", "points")
         if len(self.points) < FEWEST_POINTS:

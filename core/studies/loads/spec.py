@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Angle, Distance, Entries, Length, Spec, refused, unit
+from gearlink.core.base.spec import Angle, Distance, Entries, Length, Spec, only_one, refused, unit
 from gearlink.core.base.torsion import OfShaft
 from gearlink.core.base.wording import unlike
 
@@ -184,8 +184,7 @@ class Motor(Spec):
     def _characteristic(self) -> Self:
         if self.slope is None and (self.rated_speed is None or self.rated_torque is None):
             raise refused("give rated_speed and rated_torque, or slope", "rated_speed", "GL106")
-        if self.slope is not None and self.rated_speed is not None:
-            raise refused("slope and rated_speed exclude each other\nomit slope or rated_speed", "slope")
+        only_one(self, "slope", "rated_speed", at="slope")
         if self.rated_speed is not None and self.rated_speed >= self.no_load_speed:
             message = (
                 f"rated_speed, {self.rated_speed:g} 1/min, must lie below no_load_speed, {self.no_load_speed:g} 1/min"

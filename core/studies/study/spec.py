@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import DesignSpec, Spec, refused, unit
+from gearlink.core.base.spec import DesignSpec, Spec, only_one, refused, unit
 
 _MOST_OBJECTIVES = 6
 _MOST_DESIGNS = 1e12
@@ -46,8 +46,7 @@ class VariableSpec(Spec):
         if self.from_ is None or self.to is None:
             missing = "from" if self.from_ is None else "to"
             raise refused("give from and to, or values", missing, "GL106")
-        if self.step is not None and self.points is not None:
-            raise refused("step and points exclude each other\nomit step or points", "points")
+        only_one(self, "step", "points")
         if self.times is not None and self.points is not None:
             raise refused("points cannot be combined with times\ngive step", "points")
         if self.to < self.from_:

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from gearlink.core.base.spec import Entries, Spec, refused, unit
+from gearlink.core.base.spec import Entries, Spec, only_one, refused, unit
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.gears.keys.types import AccuracyGrade, Stress
 from gearlink.core.parts.gears.rating.conditions import Conditions, Modification, Point, Shaft, System
@@ -72,11 +72,8 @@ class LubricantSpec(Spec):
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
-        if self.vg is None and self.viscosity_40 is None:
-            raise refused("give vg or viscosity_40, the viscosity at 40 deg C", "vg", "GL106")
-        if self.vg is not None and self.viscosity_40 is not None:
-            message = "vg and viscosity_40 exclude each other\nomit vg or viscosity_40"
-            raise refused(message, "viscosity_40")
+        needed = "give vg or viscosity_40, the viscosity at 40 deg C"
+        only_one(self, "vg", "viscosity_40", needed=needed)
         names = ("viscosity_100", "temperature", "scuffing_stage")
         missing = [name for name in names if getattr(self, name) is None]
         if missing and len(missing) < len(names):

@@ -5,7 +5,7 @@ from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from gearlink.core.base.spec import Coefficient, Spec, refused, unit
+from gearlink.core.base.spec import Coefficient, Spec, only_one, refused, unit
 from gearlink.core.parts.gears.keys.types import Factor, Shift
 
 Protuberance = Annotated[float, unit("1", ge=0, le=1)]
@@ -113,12 +113,8 @@ class LoadSpec(Spec):
 
     @model_validator(mode="after")
     def _one_load(self) -> Self:
-        given = [name for name in ("torque", "power", "tangential_force") if getattr(self, name) is not None]
-        if not given:
-            raise refused("give torque, power with speed, or tangential_force", "torque", "GL106")
-        if len(given) > 1:
-            message = "torque, power and tangential_force exclude each other\nkeep one of them"
-            raise refused(message, given[1])
+        needed = "give torque, power with speed, or tangential_force"
+        only_one(self, "torque", "power", "tangential_force", needed=needed)
         if self.power is not None and self.speed is None:
             raise refused("power needs speed", "speed", "GL106")
         return self

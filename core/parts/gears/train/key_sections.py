@@ -5,13 +5,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from gearlink.core.base.spec import Length, Spec, refused
-from gearlink.core.parts.gears.keys.sections import (
-    Allowance,
-    AllowanceSpec,
-    LoadSpec,
-    Series,
-    ToolSpec,
-)
+from gearlink.core.parts.gears.keys.sections import Allowance, AllowanceSpec, LoadSpec, Series, ToolSpec
 from gearlink.core.parts.gears.keys.types import (
     Alteration,
     FaceWidth,
