@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Reals, distinct
-from gearlink.core.numerics.together import Function, Search, values_of
+from gearlink.core.numerics.together import Function, values_of
 
 POINTS = 17
 """Samples of a bracket."""
@@ -178,18 +178,7 @@ def maximum_over(
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
     """
-    grid = _grid_of(start, end, joints, samples, fewest)
-    v = f(grid.x)
-    if v.ndim > 1:
-        return _extremes_of_rows([(f, True)], [v], grid)[0]
-    search = _maximum(grid)
-    next(search)
-    try:
-        while True:
-            (v,) = values_of([f], search.send(v))
-    except StopIteration as found:
-        top: Extreme = found.value
-        return top
+    return extremes_over([(f, True)], start, end, joints=joints, samples=samples, fewest=fewest)[0]
 
 
 def _extremes_of_rows(wanted: Sequence[tuple[Function, bool]], values: Sequence[Reals], grid: _Grid) -> list[Extreme]:
@@ -404,23 +393,6 @@ def share_of(place: Reals, width: float | Reals) -> Reals:
     return share
 
 
-def _negative(f: Function) -> Function:
-    return lambda x: -f(x)
-
-
-def _maximum(grid: _Grid) -> Search[Extreme]:
-    """The search of maximum_over."""
-    search = _maxima(1, grid)
-    try:
-        asked = next(search)
-        while True:
-            shape = (-1, asked.places.shape[-1])
-            asked = search.send((yield asked.places.ravel()).reshape(shape))
-    except StopIteration as found:
-        top: Extreme = found.value[0]
-        return top
-
-
 class _Asked(NamedTuple):
     """Places of a round: those of the grid, for every search, or (brackets, points), and the search of each bracket."""
 
@@ -455,8 +427,7 @@ def minimum_over(
         >>> minimum_over(lambda x: np.abs(x - 0.3), 0.0, 1.0)
         Extreme(value=0.0, place=0.3)
     """
-    top = maximum_over(_negative(f), start, end, joints=joints, samples=samples)
-    return Extreme(0.0 - top.value, top.place)
+    return extremes_over([(f, False)], start, end, joints=joints, samples=samples)[0]
 
 
 def least_convex_radius(curvature: Function, *, joints: Sequence[float] = (), samples: int = 2048) -> Extreme:

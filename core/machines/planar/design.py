@@ -21,13 +21,14 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
 from gearlink.core.machines.planar.course import Course
 from gearlink.core.machines.planar.dyads import folded
-from gearlink.core.machines.planar.extremes import Extreme, Pair, Wanted, extremes, quick_return_ratio, turning_points
+from gearlink.core.machines.planar.extremes import Pair, Wanted, extremes, quick_return_ratio, turning_points
 from gearlink.core.machines.planar.gaps import layout
 from gearlink.core.machines.planar.outputs import RATES, Moved, moved, point_output
 from gearlink.core.machines.planar.structure import Structure
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
 from gearlink.core.numerics.arrays import distinct
+from gearlink.core.numerics.extremes import Extreme
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import ASSEMBLY, CLOSURE

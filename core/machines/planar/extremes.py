@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gearlink.core.machines.planar.course import Course
 from gearlink.core.machines.planar.system import Jets
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.roots_sweep import newton_roots
 from gearlink.core.numerics.together import kept_last
 
@@ -25,15 +25,8 @@ _EQUAL = 1e-10
 _AT_END = 1e-9  # of the period
 
 
-class Extreme(NamedTuple):
-    """A value, per rad or mm of the input to its power, and the input where it first occurs [rad or mm]."""
-
-    value: float
-    place: float
-
-
 class Pair(NamedTuple):
-    """The maximum and the minimum value."""
+    """The maximum and the minimum value, by the input to its power, each where it first occurs [rad or mm]."""
 
     max: Extreme
     min: Extreme
@@ -104,7 +97,7 @@ def _sought(course: Course, wanted: Mapping[str, Wanted], highest: int) -> dict[
     tops = extremes_over(both, course.start, course.end, joints=course.joints, samples=course.samples)
     found = {}
     for i, key in enumerate(keys):
-        high, low = (_inside(Extreme(*each), period) for each in tops[2 * i : 2 * i + 2])
+        high, low = (_inside(each, period) for each in tops[2 * i : 2 * i + 2])
         noise = _NOISE * course.floor(wanted[key[0]].unit, key[1])
         if high.value - low.value <= noise:
             high, low = (each._replace(place=course.start) for each in (high, low))
