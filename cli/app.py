@@ -198,9 +198,7 @@ for _command in (*app.registered_commands, *synth.registered_commands):  # whole
 
 
 @app.callback(invoke_without_command=True)
-def _root(
-    version: Annotated[bool, typer.Option("--version", "-V", help="show the version and exit")] = False,
-) -> None:
+def _root(version: Annotated[bool, typer.Option("--version", "-V", help="show the version and exit")] = False) -> None:
     if version:
         from gearlink.core.version import VERSION
 

@@ -204,8 +204,7 @@ OPTIONS = {
         ("--round",), "with --save: round the lengths found to this step in mm", float, least=1e-6, most=100
     ),
     "candidates": Option(
-        ("--candidates",),
-        "compare designs for the same task (if the file leaves values to be found)",
+        ("--candidates",), "compare designs for the same task (if the file leaves values to be found)"
     ),
     "force": Option(("--force",), "overwrite an existing file with --save"),
 }

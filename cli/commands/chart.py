@@ -327,15 +327,7 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
             x, y = _pointed(chart, table.data[0], values, curves[i])
         dashes = _DASHES[i % len(_DASHES)]
         label = _curve_label(chart, curves[i]) if chart.parameter is not None else None
-        axes.plot(
-            x,
-            y,
-            color=_COLORS[i % len(_COLORS)],
-            linewidth=1.6,
-            linestyle=dashes,
-            label=label,
-            gid=f"curve-{i}",
-        )
+        axes.plot(x, y, color=_COLORS[i % len(_COLORS)], linewidth=1.6, linestyle=dashes, label=label, gid=f"curve-{i}")
     axes.set_xlim(table.data[0][0], table.data[0][-1])
     if marked is not None:
         _mark(axes, marked)

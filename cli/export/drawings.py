@@ -32,10 +32,7 @@ _COLORS = {"PROFILE": 7, "PITCH_CURVE": 4, "PATH": 5, "CENTER": 1, "TEXT": 8}
 _CONSTRUCTION = 3
 _DASHED = {"PITCH_CURVE": "CENTER", "CENTER": "CENTER"}
 _MM = 4
-_OF_HOME = {
-    "XDG_CONFIG_HOME": ("~/.config", "ezdxf.ini"),
-    "XDG_CACHE_HOME": ("~/.cache", "font_manager_cache.json"),
-}
+_OF_HOME = {"XDG_CONFIG_HOME": ("~/.config", "ezdxf.ini"), "XDG_CACHE_HOME": ("~/.cache", "font_manager_cache.json")}
 """What ezdxf reads in the user's home, by the variable that names another place for it."""
 
 

@@ -101,14 +101,7 @@ def _document(model: Model) -> str:
     return "\n".join(['<?xml version="1.0" encoding="UTF-8"?>', f"<model {head}>", *rows, "</model>", ""])
 
 
-def _gear(
-    model: Model,
-    unit: int,
-    known: dict[str, int],
-    mesh: _Mesh,
-    i: int,
-    hand: int,
-) -> int:
+def _gear(model: Model, unit: int, known: dict[str, int], mesh: _Mesh, i: int, hand: int) -> int:
     """A gear on its shaft with material, flanks and the tool that cuts them; once, though it may mesh twice."""
     name, pair, widths, rated = mesh.names[i], mesh.pair, mesh.widths, mesh.rated
     if name in known:

@@ -121,10 +121,7 @@ def thinning(step: int, table: Table) -> str:
 
 
 def readable_rows(
-    table: Table,
-    step: int = 1,
-    scale: Mapping[str, float] = MappingProxyType({}),
-    digits: int | str | None = 6,
+    table: Table, step: int = 1, scale: Mapping[str, float] = MappingProxyType({}), digits: int | str | None = 6
 ) -> list[list[str]]:
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0, and a column
     that is rounding as a whole beside what its unit has elsewhere, `scale`. `digits` as in `drawn`."""

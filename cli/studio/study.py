@@ -442,13 +442,7 @@ class Grip:
     """
 
     def __init__(
-        self,
-        text: str,
-        file: str,
-        which: tuple[str, int, int],
-        fraction: float,
-        keys: Sequence[Number],
-        show: str = "",
+        self, text: str, file: str, which: tuple[str, int, int], fraction: float, keys: Sequence[Number], show: str = ""
     ) -> None:
         import numpy as np
 

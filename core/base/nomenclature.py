@@ -360,22 +360,14 @@ GEAR_PAIR = {
     ),
     "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
     "shift_sum": Term(
-        "x_Sigma",
-        "1",
-        "sum of the profile shift coefficients for zero backlash at the centre distance",
-        "ISO 21771",
+        "x_Sigma", "1", "sum of the profile shift coefficients for zero backlash at the centre distance", "ISO 21771"
     ),
     "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),
     "tip_shortening": Term("dy", "1", "tip shortening coefficient, shift sum - y", "ISO 21771"),
     "contact_ratio": Term("eps_alpha", "1", "transverse contact ratio (nominal)", "ISO 21771"),
     "profile_shift": Term("x", "1", "profile shift coefficient", "ISO 21771"),
     "reference_radius": Term("r", "mm", "reference radius m z/2", "ISO 21771"),
-    "base_radius": Term(
-        "r_b",
-        "mm",
-        "radius of the base circle, of involutes or of a cam",
-        "ISO 21771",
-    ),
+    "base_radius": Term("r_b", "mm", "radius of the base circle, of involutes or of a cam", "ISO 21771"),
     "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),
     "tip_radius": Term("r_a", "mm", "radius of the circle that bounds the teeth at their tips", "ISO 21771"),
     "root_radius": Term("r_f", "mm", "radius of the circle through the bottoms of the tooth spaces", "ISO 21771"),
@@ -479,10 +471,7 @@ GEAR_PAIR = {
         "sigma_F", "N/mm^2", "root stress; K factors computed with rating, else given or 1", "ISO 6336-3"
     ),
     "safety_bending": Term(
-        "S_F",
-        "1",
-        "safety against tooth breakage; factors computed with rating, else given or 1",
-        "ISO 6336-3",
+        "S_F", "1", "safety against tooth breakage; factors computed with rating, else given or 1", "ISO 6336-3"
     ),
     "dynamic_factor": Term("K_v", "1", "dynamic factor (method B)", "ISO 6336-1"),
     "resonance_ratio": Term("N_E", "1", "speed over the resonance speed", "ISO 6336-1"),
@@ -749,10 +738,7 @@ _SWING = {
     "impact_energy": Term("E_i", "J", "energy of the impact on the other flank", "own derivation"),
     "impact_force": Term("F_i", "N", "maximum force of the impact on the other flank", "own derivation"),
     "end_position_gain": Term(
-        "G_e",
-        "1",
-        "displacement at the output radius in the dwells, per mm of profile error",
-        "own derivation",
+        "G_e", "1", "displacement at the output radius in the dwells, per mm of profile error", "own derivation"
     ),
     "shaft_distance": Term("O1O2", "mm", "distance of two parallel cam shafts", "dissertation figure 2"),
     "roller_arm_angle": Term("psi", "deg", "angle between the arms of the two rollers", "dissertation figure 2"),
@@ -935,9 +921,7 @@ _TOLERANCE = {
 
 _REGISTER = {
     "worst": Term(
-        "",
-        "mm",
-        "register error with all sources added, each at its larger limit, for torque sign +1 and -1",
+        "", "mm", "register error with all sources added, each at its larger limit, for torque sign +1 and -1"
     ),
     "rss": Term("", "mm", "standard deviation of the register error, for torque sign +1 and -1"),
     "band": Term(

@@ -370,13 +370,7 @@ class GearTrainMobility(Design):
 
     kind = "gear-train-mobility"
     spec: GearTrainMobilitySpec
-    keys = {
-        "analyze": (
-            ("mobility", "mobility"),
-            "linkage_mobility",
-            "mobility_changes",
-        ),
-    }
+    keys = {"analyze": (("mobility", "mobility"), "linkage_mobility", "mobility_changes")}
     outlines = {
         "analyze": Outline(
             ("link_count", "linkage_mobility", "train_count", "fixed_ends", "mobility_changes", "mobility"),

@@ -585,10 +585,7 @@ MOST, ALL = "99.73 %", "worst case"
 """Which of the machines a band is of."""
 _SAMPLES = 16_384
 _KEPT = 0.9973
-_TITLES = {
-    "worst": {"band": "register, all of the machines"},
-    "mc": {"band": "register, 99.73 % of the samples"},
-}
+_TITLES = {"worst": {"band": "register, all of the machines"}, "mc": {"band": "register, 99.73 % of the samples"}}
 """What a band is of by `register.method`, where that is not the usual one."""
 _PLACES = 13
 

@@ -81,10 +81,7 @@ class DesignChart:
         if all(bool(np.all(np.isnan(column))) for column in found):
             raise NoSolution(f"the chart {self.name} has no values there", fix="widen the range, or use other curves")
         return Table(
-            self.name,
-            (self.x.name, *self.columns(curves)),
-            (self.x.unit, *(self.y.unit for _ in found)),
-            (x, *found),
+            self.name, (self.x.name, *self.columns(curves)), (self.x.unit, *(self.y.unit for _ in found)), (x, *found)
         )
 
     def columns(self, curves: Sequence[float]) -> list[str]:
@@ -157,17 +154,7 @@ def _of_dwell(
     module = "machines.three_gear.charts"
     low, high = span
     return DesignChart(
-        name,
-        title,
-        "own derivation",
-        function,
-        x,
-        _WINDOW,
-        parameter,
-        (low, high),
-        curves,
-        module,
-        peaked=peaked,
+        name, title, "own derivation", function, x, _WINDOW, parameter, (low, high), curves, module, peaked=peaked
     )
 
 
@@ -259,11 +246,7 @@ CHARTS: dict[str, DesignChart] = {
             "acceleration_peak",
         ),
         _of_law(
-            "energy-parameter",
-            "Energy parameter of the unloading law",
-            "energy parameter",
-            "$N$",
-            "energy_parameter",
+            "energy-parameter", "Energy parameter of the unloading law", "energy parameter", "$N$", "energy_parameter"
         ),
         DesignChart(
             "curvature-ratio",

@@ -275,10 +275,7 @@ def _input_gears(machine: Machine) -> list[Part]:
     pair, a, g = design.gear_pair, machine.bed_joints[0], machine.cylinder_joints[0]
     line = np.full_like(machine.fraction, np.angle(machine.gear_axis))
     turn = driven_turn(pair.teeth, line, machine.phi)
-    return [
-        *gear(pair, 0, a, machine.phi, 1.0, style.GREY, "2"),
-        *gear(pair, 1, g, turn, -1.0, style.GREY, "1"),
-    ]
+    return [*gear(pair, 0, a, machine.phi, 1.0, style.GREY, "2"), *gear(pair, 1, g, turn, -1.0, style.GREY, "1")]
 
 
 def _cam_bodies(machine: Machine) -> list[Part]:

@@ -73,11 +73,7 @@ def draw(command: str, design: GearPairDesign) -> Figure:
 
 
 def _sheet(
-    title: str,
-    drawings: tuple[Panel, Panel],
-    shown: Rows,
-    drawing: Rows,
-    plots: Sequence[Callable[[Axes, Axes], None]],
+    title: str, drawings: tuple[Panel, Panel], shown: Rows, drawing: Rows, plots: Sequence[Callable[[Axes, Axes], None]]
 ) -> Figure:
     """The mesh, both tables side by side, then the plots and their keys; a lone plot takes the width."""
     most = max(len(shown[1]), len(drawing[1]))

@@ -99,13 +99,7 @@ def loop_pitches(teeth: tuple[int, int]) -> int:
 Quantity = Callable[[str], Any]
 """A quantity of a mesh by name, of two gears a pair; None where it has none."""
 
-_OF_MESH = (
-    "center_distance",
-    "working_pressure_angle",
-    "contact_ratio",
-    "shift_sum",
-    "tip_shortening",
-)
+_OF_MESH = ("center_distance", "working_pressure_angle", "contact_ratio", "shift_sum", "tip_shortening")
 _OF_GEAR = (
     "profile_shift",
     "reference_radius",

@@ -99,10 +99,7 @@ def _lock(design: MutilatedGearDwell, wheel: tuple[Points, Reals], driven: tuple
     rim = np.linspace(lock.half_arc, TURN / lock.stops - lock.half_arc, 121)
     arc = lock.distance - lock.hollow * np.exp(1j * np.linspace(lock.reach, -lock.reach, 61))
     plate = np.concatenate([arc, lock.plate * np.exp(1j * rim)])
-    for outline, count, (place, turn), name in (
-        (disc, groups, wheel, _LOCK),
-        (plate, lock.stops, driven, ""),
-    ):
+    for outline, count, (place, turn), name in ((disc, groups, wheel, _LOCK), (plate, lock.stops, driven, "")):
         whole = np.concatenate([outline * cmath.rect(1.0, TURN * k / count) for k in range(count)])
         yield Body(
             outline=np.append(whole, whole[0]), place=place, turn=turn, repeats=count, color=_LOCK_COLOR, name=name

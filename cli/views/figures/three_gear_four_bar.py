@@ -296,10 +296,7 @@ def _shafts(axes: Axes, design: ThreeGearFourBar) -> None:
     shafts = design.spec.shafts
     if shafts is None:
         return
-    for name, radius, x in (
-        ("input", shafts.input_radius, 0.0),
-        ("output", shafts.output_radius, design.frame_length),
-    ):
+    for name, radius, x in (("input", shafts.input_radius, 0.0), ("output", shafts.output_radius, design.frame_length)):
         if radius is not None:
             style.disc(axes, complex(x), radius, facecolor=style.GREY, alpha=0.6, zorder=3.3, gid=f"shaft-{name}")
             axes.fill([], [], color=style.GREY, alpha=0.6, label=f"{name} shaft, radius {radius:g} mm")

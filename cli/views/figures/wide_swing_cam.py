@@ -410,10 +410,7 @@ def _roller(cycle: Cycle, arm: complex) -> list[Part]:
 def _device(cycle: Cycle) -> list[Part]:
     """The unloading device, shortest at mid-swing, and its arm."""
     base, pin = _device_pins(cycle)
-    return [
-        Chain(joints=(base, pin), color=style.GREEN, width=6.0),
-        Chain(joints=(track(0.0, cycle.fraction), pin)),
-    ]
+    return [Chain(joints=(base, pin), color=style.GREEN, width=6.0), Chain(joints=(track(0.0, cycle.fraction), pin))]
 
 
 def _device_pins(cycle: Cycle) -> tuple[Points, Points]:

@@ -184,10 +184,7 @@ def rack_scene(rack: RackMesh, teeth: int, back: float, fraction: Reals, drawn: 
     driver = gear(pair, 0, track(0.0, fraction), turn, 1.0, BLUE, "1", "gear 1")
     place = rack.center_distance + 1j * (geometry.first_space[1] + travel)
     body = replace(rack_body(rack, drawn or teeth, back, place), name=f"rack, z = {teeth}")
-    readouts = (
-        Readout("gear 1", "°", np.degrees(turn - geometry.first_space[0])),
-        Readout("rack", " mm", travel),
-    )
+    readouts = (Readout("gear 1", "°", np.degrees(turn - geometry.first_space[0])), Readout("rack", " mm", travel))
     return Scene(parts=(body, *driver), marks=(Mark(track(0.0, fraction), pivot=True),), readouts=readouts)
 
 

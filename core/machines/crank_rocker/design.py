@@ -94,7 +94,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
             "speed_ratio_max",
             "speed_ratio_min",
             "acceleration_ratio_max",
-        ),
+        )
     }
     outlines = {"analyze": Outline(QUANTITIES, ("transmission-angle",), ("motion",))}
     extra_tables = ("links", "path")
@@ -227,10 +227,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         course = rocker(self)
         return self._over(
             "motion",
-            [
-                *of_output(course, "rocker_angle", "rocker"),
-                Shown("transmission_angle", between("coupler", "rocker")),
-            ],
+            [*of_output(course, "rocker_angle", "rocker"), Shown("transmission_angle", between("coupler", "rocker"))],
             samples,
         )
 

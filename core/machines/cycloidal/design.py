@@ -58,7 +58,7 @@ class CycloidalReducer(RealSpeed, Design):
             "pressure_angle_max",
             "output_hole_radius",
             "lobes",
-        ),
+        )
     }
     outlines = {"analyze": Outline((*_SIZES, *_FORCES), _CHECKS, ("pins",))}
     extra_tables = ("profile",)

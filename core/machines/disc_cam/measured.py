@@ -651,16 +651,7 @@ class MeasuredCamDesign(DiscCamDesign):
 
     kind = "measured-cam"
     spec: MeasuredCamSpec  # type: ignore[assignment]  # it has what a disc cam's has
-    keys = {
-        "analyze": (
-            "swing",
-            "stroke",
-            "fit_rms",
-            "fit_max",
-            "max_pressure_angle",
-            "min_curvature_radius",
-        ),
-    }
+    keys = {"analyze": ("swing", "stroke", "fit_rms", "fit_max", "max_pressure_angle", "min_curvature_radius")}
     outlines = {"analyze": Outline(QUANTITIES, _CHECKS, ("law", "phases"))}
     extra_tables = ("profile_fit", "main_cam", "radius")
     extreme_names = ()

@@ -91,8 +91,7 @@ class MeasuredCamSpec(TolerancedSpec):
 
     kind: Literal["measured-cam"]
     follower: Annotated[
-        OscillatingFollower | TranslatingFollower,
-        Field(discriminator="type", description="the follower on the cam"),
+        OscillatingFollower | TranslatingFollower, Field(discriminator="type", description="the follower on the cam")
     ]
     roller_radius: Length = Field(description="radius of the roller")
     sense: Assembly = Field(1, description="1: the cam turns counter-clockwise; -1: clockwise")

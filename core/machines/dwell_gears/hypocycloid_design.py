@@ -293,8 +293,7 @@ def osculating(planet_radius: float, cusps: int) -> float:
 def _point(radius: float, cusps: int, t: float, ratio: float = 1.0) -> complex:
     k = cusps - 1
     return complex(
-        radius * (k * math.cos(t) - ratio * math.cos(k * t)),
-        radius * (k * math.sin(t) + ratio * math.sin(k * t)),
+        radius * (k * math.cos(t) - ratio * math.cos(k * t)), radius * (k * math.sin(t) + ratio * math.sin(k * t))
     )
 
 
@@ -548,7 +547,7 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
             "slider_acceleration_max",
             "velocity_max",
             "acceleration_max",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

@@ -270,7 +270,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
             "rocker_start_speed",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "rocker_swing",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

@@ -131,10 +131,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
         """Input turns of motion and dwell that target asks for."""
         assert self.target is not None, "needed where there is a target"
         turn = 60_000.0 / self.input_speed if self.input_speed else 0.0
-        pairs = (
-            (self.target.motion_turns, self.target.motion_time),
-            (self.target.dwell_turns, self.target.dwell_time),
-        )
+        pairs = ((self.target.motion_turns, self.target.motion_time), (self.target.dwell_turns, self.target.dwell_time))
         motion, dwell = (turns if turns is not None else (time or 0.0) / turn for turns, time in pairs)
         return motion, dwell
 

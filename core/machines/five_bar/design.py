@@ -564,7 +564,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
             "phase",
             "speed_ratio_max",
             "speed_ratio_min",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

@@ -125,11 +125,7 @@ class FunctionFiveBar:
     def reach_squared(self) -> HarmonicSum:
         """|CE|^2 over the input angle."""
         a, b, d, m = self.input, self.coupler, self.frame, self.coupler_ratio
-        terms = (
-            (2.0 * a * b, m - 1.0, self.phase),
-            (-2.0 * a * d, 1.0, 0.0),
-            (-2.0 * b * d, m, self.phase),
-        )
+        terms = ((2.0 * a * b, m - 1.0, self.phase), (-2.0 * a * d, 1.0, 0.0), (-2.0 * b * d, m, self.phase))
         return HarmonicSum(math.fsum((a * a, b * b, d * d)), terms)
 
     def reach_extremes(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -83,11 +83,7 @@ class PathFiveBar:
         a^2 + d^2 + e^2 + 2 d e cos(delta + k phi) - 2 a d cos(phi) - 2 a e cos((1 - k) phi - delta)
         """
         a, d, e, k = self.input, self.frame, self.output, float(self.ratio)
-        terms = (
-            (2.0 * d * e, k, self.phase),
-            (-2.0 * a * d, 1.0, 0.0),
-            (-2.0 * a * e, 1.0 - k, -self.phase),
-        )
+        terms = ((2.0 * d * e, k, self.phase), (-2.0 * a * d, 1.0, 0.0), (-2.0 * a * e, 1.0 - k, -self.phase))
         return HarmonicSum(math.fsum((a * a, d * d, e * e)), terms)
 
     @cached_property

@@ -1005,14 +1005,7 @@ _CAM = (
 )
 _PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register", "body-clearance")
 _BEARING = ("pressure-angle", "cam-undercut", "shaft-clearance")
-_CAM_CHECKS = (
-    *_BEARING,
-    "velocity-step",
-    "acceleration-step",
-    "constant-sum",
-    "sync-length",
-    *LAW_CHECKS,
-)
+_CAM_CHECKS = (*_BEARING, "velocity-step", "acceleration-step", "constant-sum", "sync-length", *LAW_CHECKS)
 _CAM_TABLES = ("follower", "main_cam", "return_cam")
 _PRESS_QUANTITIES = ("crank_length", "bed_stroke", "initial_crank_angle", *_SYNC, *_CHAINS)
 
@@ -1071,12 +1064,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             "max_radius",
             "min_radius",
         ),
-        "crank": (
-            "crank_length",
-            "bed_stroke",
-            "quick_return_ratio",
-            "max_stroke",
-        ),
+        "crank": ("crank_length", "bed_stroke", "quick_return_ratio", "max_stroke"),
     }
     outlines = {
         "press": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),

@@ -83,9 +83,7 @@ class GearPairDesign(GearQuantities, Design):
 
     kind = "gear-pair"
     spec: GearPairSpec
-    keys = {
-        "analyze": SHARED["gear"],
-    }
+    keys = {"analyze": SHARED["gear"]}
     outlines = {
         "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
         "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),

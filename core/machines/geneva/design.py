@@ -438,7 +438,7 @@ class GenevaDrive(RealSpeed, Design):
             "locking_angle",
             "speed_ratio_max",
             "acceleration_ratio_max",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

@@ -191,7 +191,7 @@ class Machine(OfMembers):
             "*.phase_room",
             "critical_speeds",
             "cycle_turns",
-        ),
+        )
     }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes", "servo")

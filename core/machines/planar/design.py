@@ -280,7 +280,7 @@ class PlanarMechanism(Design):
             "*.x_min",
             "*.y_max",
             "*.y_min",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

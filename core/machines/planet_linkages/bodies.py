@@ -32,11 +32,7 @@ def two_gear_layout(design: TwoGearFourBar) -> Layout:
     return Layout(
         gears=(planet, output),
         shafts=shafts_at("AD", spec.shafts),
-        reaches={
-            "AB": constant(links.crank),
-            "AD": constant(links.frame),
-            "BD": crank_pin(links.crank, links.frame),
-        },
+        reaches={"AB": constant(links.crank), "AD": constant(links.frame), "BD": crank_pin(links.crank, links.frame)},
         least_shaft=least_shaft(spec.limits, spec.gears.module),
     )
 

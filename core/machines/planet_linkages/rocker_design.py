@@ -186,7 +186,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
             "speed_ratio_max",
             "acceleration_ratio_max",
             "contact_ratio",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

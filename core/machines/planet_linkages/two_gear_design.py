@@ -101,7 +101,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
             ("min_transmission_angle", ">limits.transmission_angle"),
             "linkage_kind",
             "acceleration_ratio_max",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline((*QUANTITIES, *OF_DWELL), ("dwell-window", *CHECKS), ("motion",)),

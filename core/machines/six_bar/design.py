@@ -89,7 +89,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
             "acceleration_ratio_max",
             ("gear_gap", ">limits.gear_gap"),
             "center_distance",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline(

@@ -52,11 +52,7 @@ _MOTION = (
 
 def rack_ways() -> dict[str, tuple[Way, ...]]:
     """The ways for the teeth of pinion and racks: its shift where the file gives one, either number of teeth, both."""
-    teeth = (
-        up("racks.fixed", step=1.0),
-        up("racks.moving", step=1.0),
-        up("racks.fixed", "racks.moving", step=1.0),
-    )
+    teeth = (up("racks.fixed", step=1.0), up("racks.moving", step=1.0), up("racks.fixed", "racks.moving", step=1.0))
     shift = either("racks.profile_shift[0]", step=0.01)
     ways = {name: (*shift, *ways) for name, ways in gear_ways(*teeth, angle="racks.pressure_angle").items()}
     return ways | {

@@ -369,10 +369,7 @@ class Batch:
     @cached_property
     def _meshes(self) -> dict[str, Mesh]:
         make = self._made.meshes
-        return {
-            "crank_idler": make(self.z1, self.z3, self.module),
-            "idler_output": make(self.z3, self.z5, self.module),
-        }
+        return {"crank_idler": make(self.z1, self.z3, self.module), "idler_output": make(self.z3, self.z5, self.module)}
 
     def mesh_quantity(self, name: str) -> Any:
         """A quantity of a mesh by its whole name, in the units of design files; None where this form has it not."""

@@ -134,12 +134,7 @@ WAYS = {
         down("gears.crank", step=1),
         down("momentary.eccentricity"),
     ),
-    "shaft-clearance": (
-        *_LINKS,
-        *either("gears.idler", step=1),
-        *_TEETH,
-        *SHAFT_WAYS,
-    ),
+    "shaft-clearance": (*_LINKS, *either("gears.idler", step=1), *_TEETH, *SHAFT_WAYS),
     "transmission-angle": (
         *_LINKS,
         up("gears.idler", step=1),
@@ -173,7 +168,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
             ("gear_gap", ">limits.gear_gap"),
             "acceleration_ratio_max",
             "dwell_angle",
-        ),
+        )
     }
     outlines = {
         "analyze": Outline((*QUANTITIES, "dwell_pole_line_error"), ("dwell-window", *CHECKS), ("motion",)),
@@ -404,10 +399,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         from gearlink.core.machines.three_gear.mechanism import OUTPUT
         from gearlink.core.mechanism.courses import Shown, between, motion_table, of_output
 
-        shown = [
-            *of_output(OUTPUT),
-            Shown("transmission_angle", between("coupler", "rocker")),
-        ]
+        shown = [*of_output(OUTPUT), Shown("transmission_angle", between("coupler", "rocker"))]
         return motion_table("motion", self, shown, samples)
 
     def table_links(self, samples: int | None = None) -> Table:

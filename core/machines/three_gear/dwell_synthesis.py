@@ -29,12 +29,7 @@ MARGIN = 0.01
 PLAIN_TOLERANCE = 1.0
 """Of a dwell that names none [deg]."""
 _ROUNDING = 1e-9
-_DWELL = (
-    "dwell_tolerance",
-    "window_limit",
-    "frame_ratio_interval",
-    "frame_length_interval",
-)
+_DWELL = ("dwell_tolerance", "window_limit", "frame_ratio_interval", "frame_length_interval")
 
 
 class DwellTask(FamilyTask):

@@ -489,10 +489,7 @@ NEED_ZONE = (
     "contact_force",
 )
 DERIVED = frozenset(
-    (
-        *(*TORQUE, *MOTION, *PLACES, *OF_REST),
-        *("contact_force", "slider_velocity_peak", "slider_acceleration_peak"),
-    )
+    (*(*TORQUE, *MOTION, *PLACES, *OF_REST), *("contact_force", "slider_velocity_peak", "slider_acceleration_peak"))
 )
 """Extremes of a law, and of a profile, that other quantities have already found to exist."""
 
@@ -1336,12 +1333,7 @@ class WideSwingDesign(Design):
         """With a cam `swing` judges the profile, the device, and a cycle or a slider."""
         more: tuple[str, ...] = ()
         if spec.cam is not None and command != "cam":
-            more = (
-                *_CAM_CHECKS,
-                "force-reserve",
-                *_BESIDE,
-                *(("side-change",) if spec.slider is not None else ()),
-            )
+            more = (*_CAM_CHECKS, "force-reserve", *_BESIDE, *(("side-change",) if spec.slider is not None else ()))
         more += _CYCLE_CHECKS if spec.cycle is not None and spec.cam is not None else ()
         return tuple(dict.fromkeys((*super().judged(command, spec), *more)))
 
@@ -1381,15 +1373,9 @@ class WideSwingDesign(Design):
         if self._is_refused:
             return ["lift_off_speed"]
         if self.spec.drive is not None:
-            shown = [
-                *DRIVE,
-                *(name for name in shown if name not in (*OF_EVEN_CAM, *OF_REST, *NEED_PROFILE)),
-            ]
+            shown = [*DRIVE, *(name for name in shown if name not in (*OF_EVEN_CAM, *OF_REST, *NEED_PROFILE))]
         if self.spec.slider is not None:
-            shown = [
-                *OF_SLIDER_CAM,
-                *(name for name in shown if name not in (*OF_EVEN_CAM, *NEED_PROFILE)),
-            ]
+            shown = [*OF_SLIDER_CAM, *(name for name in shown if name not in (*OF_EVEN_CAM, *NEED_PROFILE))]
         section = self.section
         if section.second is not None:
             shown += SHAFTS

@@ -38,8 +38,7 @@ class SwingLoads(CommonLoads):
         "at mid-swing; default: no force at D",
     )
     slider_direction: Direction | None = Field(
-        None,
-        description="direction from D in which the slider is farthest; default: -90, and no force at D",
+        None, description="direction from D in which the slider is farthest; default: -90, and no force at D"
     )
     drive_direction: Direction | None = Field(
         None, description="direction from the cam's axis O to the crank's pivot A; default: -60, and no force at O"

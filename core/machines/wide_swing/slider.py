@@ -433,10 +433,7 @@ class SliderLaw:
         require_share(k)
         late = k > 0.5
         sine, cosine = np.empty(k.shape), np.empty(k.shape)
-        for part, fraction, clock, side in (
-            (~late, k, self._from_start, 1.0),
-            (late, 1.0 - k, self._from_end, -1.0),
-        ):
+        for part, fraction, clock, side in ((~late, k, self._from_start, 1.0), (late, 1.0 - k, self._from_end, -1.0)):
             some = columns_of(part)
             if not some.size:
                 continue

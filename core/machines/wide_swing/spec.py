@@ -325,9 +325,7 @@ class WideSwingSpec(TolerancedSpec):
         description="moment of inertia on the rocker axis; 0 only where a slider carries the mass"
     )
     unloader: Pneumatic | SpringDevice | GravityDevice = Field(
-        discriminator="type",
-        description="device that balances the inertia",
-        json_schema_extra=also("balancing_device"),
+        discriminator="type", description="device that balances the inertia", json_schema_extra=also("balancing_device")
     )
     output_radius: Length | None = Field(
         None, description="radius on the rocker at which the error of its end positions is computed"
@@ -381,14 +379,10 @@ class WideSwingSpec(TolerancedSpec):
             raise refused(f"the key 'second' is missing\n{words}", "cam.second", "GL106")
         if not parallel and self.cam is not None and self.cam.second is not None:
             raise refused(
-                "cam.second applies only to layout: twin-cam-parallel\nremove it, or set that layout",
-                "cam.second",
+                "cam.second applies only to layout: twin-cam-parallel\nremove it, or set that layout", "cam.second"
             )
         if not parallel and self.gears is not None:
-            raise refused(
-                "gears apply only to layout: twin-cam-parallel\nremove them, or set that layout",
-                "gears",
-            )
+            raise refused("gears apply only to layout: twin-cam-parallel\nremove them, or set that layout", "gears")
         if parallel and self.gears is not None and self.cam is None:
             raise refused("the gears need the section cam: center_distance, roller_radius, second", "cam", "GL106")
 

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
 _OF_POWER = frozenset(("power_peak", "drive_torque_peak"))
 _OF_LAWS = _OF_POWER | {
-    *("velocity_peak", "acceleration_peak", "slider_velocity_peak", "slider_acceleration_peak", "dynamic_coefficient"),
+    *("velocity_peak", "acceleration_peak", "slider_velocity_peak", "slider_acceleration_peak", "dynamic_coefficient")
 }
 """Quantities by extremes of the laws of rockers with sliders."""
 Part = TypeVar("Part")

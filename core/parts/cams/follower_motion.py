@@ -258,12 +258,7 @@ def spline(angles: Sequence[float], lifts: Sequence[float]) -> FollowerMotion:
 
 
 def _piece(
-    segment: Segment,
-    number: int,
-    span: tuple[float, float],
-    lifts: tuple[float, float],
-    unit: float,
-    spec: Any,
+    segment: Segment, number: int, span: tuple[float, float], lifts: tuple[float, float], unit: float, spec: Any
 ) -> Piece:
     blank = Piece(number, *span, *lifts, DWELL)
     if segment.law == POLYNOMIAL:

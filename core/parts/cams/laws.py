@@ -177,11 +177,7 @@ def _pieces(a: float, b: float, c: float, d: float, peak: float, cruise: float) 
     if a > 0.0:
         found.append((end_sine, _sine_piece(a, peak)))
         r = a / math.pi
-        start = (
-            peak * r**3 * (math.pi**2 / 8.0 - 1.0),
-            peak * r * r * (math.pi / 2.0 - 1.0),
-            peak * r,
-        )
+        start = (peak * r**3 * (math.pi**2 / 8.0 - 1.0), peak * r * r * (math.pi / 2.0 - 1.0), peak * r)
     if b > 0.0:
         constant = _parabola(end_sine, (*start, peak))
         found.append((end_constant, constant))
@@ -305,11 +301,7 @@ def _square_excess(z: Any) -> Any:
 
 
 def _near_zero(
-    z: Any,
-    limit: float,
-    leading: Callable[[Any], Any],
-    divisors: tuple[float, ...],
-    direct: Callable[[Any], Any],
+    z: Any, limit: float, leading: Callable[[Any], Any], divisors: tuple[float, ...], direct: Callable[[Any], Any]
 ) -> Any:
     def series(z: Any) -> Any:
         y = z * z

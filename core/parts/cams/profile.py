@@ -84,12 +84,7 @@ def oscillating(pivot: complex, arm: float, angle: ArrayLike, first: ArrayLike, 
 
 
 def translating(
-    displacement: ArrayLike,
-    first: ArrayLike,
-    second: ArrayLike = 0.0,
-    *,
-    direction: complex = 1.0,
-    offset: float = 0.0,
+    displacement: ArrayLike, first: ArrayLike, second: ArrayLike = 0.0, *, direction: complex = 1.0, offset: float = 0.0
 ) -> RollerPath:
     """Path of a roller on a slide.
 

@@ -524,11 +524,7 @@ def residuals(law: Law, periods: Reals, damping: float = 0.0) -> Reals:
 
 # Coefficients of t^3, t^4, t^5 by s0, v0, a0, s1, v1, a1 of an interval of width 1; t^0 to t^2 are s0, v0, a0/2.
 _UPPER = np.array(
-    [
-        [-10.0, -6.0, -1.5, 10.0, -4.0, 0.5],
-        [15.0, 8.0, 1.5, -15.0, 7.0, -1.0],
-        [-6.0, -3.0, -0.5, 6.0, -3.0, 0.5],
-    ]
+    [[-10.0, -6.0, -1.5, 10.0, -4.0, 0.5], [15.0, 8.0, 1.5, -15.0, 7.0, -1.0], [-6.0, -3.0, -0.5, 6.0, -3.0, 0.5]]
 )
 # Integral of (6 c3 + 24 c4 t + 60 c5 t^2)^2 over the interval, as a form of these.
 _ENERGY = _UPPER.T @ np.array([[36.0, 72.0, 120.0], [72.0, 192.0, 360.0], [120.0, 360.0, 720.0]]) @ _UPPER

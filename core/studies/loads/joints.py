@@ -285,10 +285,7 @@ class MeshLoad:
 
 
 def find_reversals(
-    machine: Machine,
-    pins: Sequence[PinLoad],
-    meshes: Sequence[MeshLoad],
-    others: Sequence[tuple[Function, float]] = (),
+    machine: Machine, pins: Sequence[PinLoad], meshes: Sequence[MeshLoad], others: Sequence[tuple[Function, float]] = ()
 ) -> list[list[float]]:
     """Search the reversals of pins together, and the changes of flanks of meshes, and keep them there.
 

@@ -21,14 +21,7 @@ TORQUE = (
     "torque_reversals",
     "energy_fluctuation",
 )
-RUN = (
-    "flywheel_inertia",
-    "speed_min",
-    "speed_max",
-    "speed_fluctuation",
-    "motor_torque_rms",
-    "motor_torque_peak",
-)
+RUN = ("flywheel_inertia", "speed_min", "speed_max", "speed_fluctuation", "motor_torque_rms", "motor_torque_peak")
 FRAME = ("shaking_force_max", "shaking_moment_max")
 BALANCE = (
     "counterweight_crank",

@@ -239,8 +239,7 @@ class Vibration(Spec):
 
     frequency: Annotated[float, unit("Hz", gt=0, le=1e7)] | None = Field(None, description="natural frequency")
     stiffness: Annotated[float, unit("1", gt=0, le=1e12)] | OfShaft | None = Field(
-        None,
-        description="instead of frequency: of the output shaft (N m/rad or its sizes) or a slider's drive (N/mm)",
+        None, description="instead of frequency: of the output shaft (N m/rad or its sizes) or a slider's drive (N/mm)"
     )
     damping: Coefficient | None = Field(None, description="damping ratio; default: 0.03, assumed")
     allowed_residual: Annotated[float, unit("1", gt=0, le=1e6)] | None = Field(

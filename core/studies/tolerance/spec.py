@@ -102,8 +102,7 @@ class ToleranceSource(Spec):
         for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
             if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
                 raise refused(
-                    f"the limits {pair[0]:g} and {pair[1]:g} have no width: the first must be the smaller",
-                    code="GL171",
+                    f"the limits {pair[0]:g} and {pair[1]:g} have no width: the first must be the smaller", code="GL171"
                 )
         if self.clearance is not None and self.clearance[0] < 0:
             raise refused(f"a clearance of {self.clearance[0]:g} mm is an interference\ngive 0 or more", code="GL171")

@@ -40,12 +40,7 @@ and an entry of the legend above them."""
 
 
 def sheet(
-    title: str,
-    design: Any,
-    mechanism: Panel,
-    words: Mapping[str, str],
-    charts: Sequence[Panel],
-    columns: int = 2,
+    title: str, design: Any, mechanism: Panel, words: Mapping[str, str], charts: Sequence[Panel], columns: int = 2
 ) -> Figure:
     """The mechanism and its numbers over the charts; a last one alone in its row is as wide as the page."""
     rows = math.ceil(len(charts) / columns)

@@ -162,12 +162,7 @@ def legend_above(axes: Axes, columns: int = 5) -> None:
     rows = max(1, math.ceil(len(labels) / columns))
     if title and 1.4 * len(title) + _width_of_legend(labels, columns) > room:
         axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0 + 12.0 * (rows - 1))
-    axes.legend(
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=columns,
-        **_LEGEND,
-    )
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, **_LEGEND)
 
 
 def _width_of_legend(labels: Sequence[str], columns: int) -> int:
@@ -197,12 +192,7 @@ def _share_of_page(axes: Axes) -> float:
 def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
     """The heading of a panel, and between it and the curves a legend in as many rows as it needs."""
     columns = _columns_within(_LINE * _share_of_page(axes), axes.get_legend_handles_labels()[1], columns)
-    legend = axes.legend(
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=columns,
-        **_LEGEND,
-    )
+    legend = axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, **_LEGEND)
     rows = math.ceil(len(legend.get_texts()) / columns)
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=7.0 + 12.0 * rows)
 

@@ -17,13 +17,7 @@ from gearlink.core.parts.gears.rating.materials import Endurance, GearSteel, Qua
 
 System = Literal["pair", "sun-planet", "planet-ring"]
 Modification = Literal["none", "crowning", "end-relief"]
-_UNDER_LOAD = {
-    "a": (0.8, 0.48),
-    "b": (-0.8, -0.48),
-    "c": (1.33, 1.33),
-    "d": (-0.6, -0.36),
-    "e": (-1.0, -0.6),
-}
+_UNDER_LOAD = {"a": (0.8, 0.48), "b": (-0.8, -0.48), "c": (1.33, 1.33), "d": (-0.6, -0.36), "e": (-1.0, -0.6)}
 """K' of each position of the pinion, of a plain shaft and of one that the pinion's body stiffens."""
 _LEFT_BY = {"none": (1.0, 1.0), "crowning": (0.5, 0.5), "end-relief": (0.7, 0.7)}
 """B_1 and B_2 of each modification of the helix."""
@@ -232,11 +226,7 @@ def limit_line(
     if pitting_allowed and endurance.factor == _PITTED.factor:
         endurance, bend = _PITTED, _PITTED_BEND
     return LimitLine(
-        endurance=endurance,
-        static=static * endurance.factor,
-        reference=reference,
-        long_life=long_life,
-        bend=bend,
+        endurance=endurance, static=static * endurance.factor, reference=reference, long_life=long_life, bend=bend
     )
 
 

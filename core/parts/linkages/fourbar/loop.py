@@ -119,10 +119,7 @@ def triangle(reading: Any, sin_half: Any, cos_half: Any) -> Any:
     """sin(phi), the squares of cosine and sine of phi/2, n^2, P and Q; of numbers, or of arrays."""
     n_0, n_pi, p_0, p_pi, q_0, q_pi = reading[5:11]
     ss, cc = sin_half * sin_half, cos_half * cos_half
-    return (
-        *(2.0 * sin_half * cos_half, cc, ss),
-        *(n_0 * cc + n_pi * ss, p_0 * cc + p_pi * ss, q_0 * cc + q_pi * ss),
-    )
+    return (*(2.0 * sin_half * cos_half, cc, ss), *(n_0 * cc + n_pi * ss, p_0 * cc + p_pi * ss, q_0 * cc + q_pi * ss))
 
 
 def _to_far_pivot(reading: Reading, phi: float, sin_phi: float, cc: float, ss: float) -> tuple[float, float]:
