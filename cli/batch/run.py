@@ -155,7 +155,6 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     Notes
         Interrupted, it shows what is finished and gives 130.
     """
-
     try:
         files = design_files(places)
         if options.out is not None:

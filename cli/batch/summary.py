@@ -187,17 +187,14 @@ def _markdown(results: Sequence[Outcome]) -> str:
 
 
 def _junit(results: Sequence[Outcome]) -> str:
-
     return as_junit(results)
 
 
 def _sarif(results: Sequence[Outcome]) -> str:
-
     return as_sarif(results)
 
 
 def _github(results: Sequence[Outcome]) -> str:
-
     return as_github(results)
 
 

@@ -76,7 +76,6 @@ def run_chart(asked: Asked, options: Options) -> int:
     print_report(report, options)
 
     def draw() -> None:
-
         path = write_chart(chart, report.tables[0], curves, marked, options)
         if not options.quiet:
             print(wrote(path), file=sys.stderr)

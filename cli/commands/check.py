@@ -54,7 +54,6 @@ _WORTH_SECONDS = 0.15
 
 def run_check(places: Sequence[str], options: Options, *, verbose: bool = False) -> int:
     """Check every design file of the places, print the findings, give the worst exit status."""
-
     try:
         files = ["-"] if "-" in places else []
         if named := [place for place in places if place != "-"]:

@@ -196,7 +196,6 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options, show:
 
     Where one is refused they are made again one after another, so that the first to refuse in the file's order says so.
     """
-
     with without_notes("matplotlib"):
         import matplotlib.backends.backend_svg  # noqa: F401 - once, not in every process
     commands, designs = _commands(kind, spec), FileDesigns(kind, spec)

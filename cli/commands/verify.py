@@ -198,7 +198,6 @@ class _Kernel:
     """Results of a case that a function computes."""
 
     def __init__(self, case: Case) -> None:
-
         self._results = KERNELS[case.kernel](case.given)
 
     def value(self, number: Number) -> tuple[Any, str]:

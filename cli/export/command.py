@@ -188,7 +188,6 @@ def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
 
 
 def _words(form: FileFormat, contour: Contour, asked: Export) -> str:
-
     error = f"{error_name(contour)} {rounded_up(contour.error)} mm (tolerance {asked.tolerance:g} mm)"
     if form is FileFormat.STEP and contour.part.twist:
         from gearlink.cli.export.step import helix_error

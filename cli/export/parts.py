@@ -133,7 +133,6 @@ def _on_shaft(part: Part, radius: float) -> Part:
 
 def cycloidal(design: Any) -> Makers:
     """The disc with its holes, and the ring with its pins."""
-
     return {"disc": lambda: cycloidal_disc(design), "ring": lambda: cycloidal_ring(design)}
 
 
@@ -260,7 +259,6 @@ def gear_pair(design: Any, key: str = "") -> Makers:
 
 
 def _rack(design: Any) -> Part:
-
     width, hands = design.data.face_width[1] if design.data.face_width else None, pair_hands(design)
     made = rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width, hands[1])
     return replace(made, lines=partial(_rack_lines, design.rack, 1, hands))
@@ -291,13 +289,11 @@ def on_rack(mesh: Any, names: tuple[str, str], titles: tuple[str, str], key: str
     back = data.rims[1] if data.rims[1] is not None else 2.0 * mesh.pair.module
 
     def pinion() -> Part:
-
         with at_key(key):
             made = gear_of(mesh.pair, 0, names[0], titles[0], widths[0], "right")
         return replace(made, lines=partial(_rack_lines, mesh, 0, ("right", "left")))
 
     def rack() -> Part:
-
         with at_key(key):
             made = rack_of(mesh, teeth, back, names[1], titles[1], widths[1], "left")
         return replace(made, lines=partial(_rack_lines, mesh, 1, ("right", "left")))
@@ -372,7 +368,6 @@ def mutilated(design: Any) -> Makers:
     made = of_mesh(design.mesh, ("", "gear2"), titles, "gears", data_of=data_of, hands=hands)
 
     def wheel() -> Part:
-
         with at_key("gears"):
             widths = design.widths_of()
             found = wheel_of(design, widths[0] if widths else None, hands[0])
@@ -447,7 +442,6 @@ def of_mesh(
     data = data_of or (lambda: GearData(pair=mesh))
 
     def gear(number: int) -> Part:
-
         with at_key(key):
             widths = data().face_width
             width = widths[number] if widths else None

@@ -185,7 +185,6 @@ def _first(function: Callable[[int], Any], numbers: Sequence[int], watch: Watch)
 
 
 def _on_cluster(function: Callable[[int], Any], numbers: Sequence[int], dask: str, watch: Watch) -> list[Any]:
-
     with client(dask) as cluster, cluster.get_executor() as pool:
         return _given(pool, function, numbers, watch)
 

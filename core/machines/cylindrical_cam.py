@@ -187,7 +187,6 @@ class CylindricalCamDesign(OfFollower, Design):
 
     @cached_property
     def follower_motion(self) -> FollowerMotion:
-        """Lift over the cam angle [mm]."""
         with at_key("motion"):
             return motion_of(self.spec.motion, self.spec.initial_lift, spec=self.spec)
 
@@ -212,7 +211,6 @@ class CylindricalCamDesign(OfFollower, Design):
     @cached_property
     def drum(self) -> Drum:
         """The track."""
-
         cam = self.spec.cam
         return Drum(
             self.follower_motion, cam.radius, cam.radius - cam.depth, self.spec.follower.roller_radius, cam.sense

@@ -60,7 +60,6 @@ class MotionLawSpec(DesignSpec):
         return None if self.time is None else 1e-3 * self.time
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
         return ("laws",)
 
 

@@ -750,7 +750,6 @@ class MotionRegister(RegisterDesign):
         return radius
 
     def mechanism(self, input_angle: Reals) -> Mechanism:
-        """Links and joints."""
         return self.motion.make(input_angle, 1, 1)
 
     def output(self, _input_angle: Reals) -> Output:
@@ -803,7 +802,6 @@ class MotionRegister(RegisterDesign):
 
     @cached_property
     def backlash(self) -> dict[str, float]:
-        """Circumferential backlash of each mesh on the way [mm]."""
         meshes = tuple(each.name for each in self._at_start.connections if isinstance(each, Toothed))
         if not meshes and self.section.backlash is not None:
             raise NoSolution("no mesh lies on the way to the output", key="register.backlash", fix="omit backlash")

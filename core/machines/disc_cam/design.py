@@ -169,7 +169,6 @@ class DiscCamDesign(OfFollower, Design):
     @cached_property
     def closing(self) -> Closing:
         """What holds the follower on the cam."""
-
         return Closing(self.spec, self.cams)
 
     @cached_property
@@ -279,7 +278,6 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def follower_motion(self) -> FollowerMotion:
-        """Lift over the cam angle [mm or rad]."""
         return self.cams.motion
 
     @property
@@ -289,7 +287,6 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def rocks(self) -> bool:
-        """Whether the follower oscillates."""
         return self.spec.oscillates
 
     # Profile
@@ -456,7 +453,6 @@ class DiscCamDesign(OfFollower, Design):
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the profile against its shaft."""
-
         spec = self.spec
         radius = self.cams.place.radius
 

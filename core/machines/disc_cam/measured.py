@@ -596,7 +596,6 @@ class MeasuredCams(FollowerCams):
 
     @cached_property
     def motion(self) -> Any:
-        """Lift over the cam angle [mm or rad]."""
         return MeasuredMotion(self.design)
 
     @cached_property
@@ -681,7 +680,6 @@ class MeasuredCamDesign(DiscCamDesign):
     @cached_property
     def points(self) -> tuple[Reals, Reals]:
         """Angles [rad] and radii [mm] of the measured profile."""
-
         return places(self.spec.profile.points or ())
 
     @cached_property
@@ -795,7 +793,6 @@ class MeasuredCamDesign(DiscCamDesign):
 
     @cached_property
     def closing(self) -> Closing:
-        """What holds the follower on the cam."""
         return super().closing if self.spec.loads is not None else MeasuredClosing(self)
 
     @property
@@ -810,7 +807,6 @@ class MeasuredCamDesign(DiscCamDesign):
 
     @property
     def max_pressure_angle(self) -> float:
-        """Maximum pressure angle [rad]."""
         return self.steepest.value
 
     @property
@@ -824,12 +820,10 @@ class MeasuredCamDesign(DiscCamDesign):
 
     @property
     def follower_velocity_max(self) -> float | None:
-        """Maximum velocity of the follower [mm/s or rad/s]."""
         return None if self.speed is None else self.speed * self.rates[0]
 
     @property
     def follower_acceleration_max(self) -> float | None:
-        """Maximum acceleration of it [mm/s^2 or rad/s^2]."""
         return None if self.speed is None else self.speed**2 * self.rates[1]
 
     @cached_property

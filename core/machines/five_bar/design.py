@@ -145,7 +145,6 @@ def path_extremes(bar: PathFiveBar, offset: complex) -> dict[str, float]:
         >>> round(path_extremes(bar, 60.0 + 0j)["velocity_max"], 6)
         58.52755
     """
-
     found = kept_last(lambda phi: rates(bar, phi, offset))
     curves = {"velocity": lambda phi: np.abs(found(phi)[0]), "acceleration": lambda phi: np.abs(found(phi)[1])}
     waves = bar.period_turns * max(1.0, abs(float(bar.ratio)))
@@ -158,7 +157,6 @@ def function_extremes(bar: FunctionFiveBar, start: float, end: float) -> dict[st
     Parameters
         start, end : float [rad] - it closes between them
     """
-
     rates = kept_last(bar.output_rates)
     curves = {"speed_ratio": lambda phi: rates(phi)[0], "acceleration_ratio": lambda phi: rates(phi)[1]}
     waves = float(np.max(end - start)) / _EXTREMES_TURN * max(1.0, abs(bar.coupler_ratio))
@@ -709,7 +707,6 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
     @cached_property
     def motion_extremes(self) -> dict[str, float]:
         """Extremes of the point's speed and acceleration [mm/rad, mm/rad^2], or of the output's, and their places."""
-
         if self.is_path:
             return path_extremes(self.path_bar, self.offset)
         return function_extremes(self.function_bar, *self.input_range)
@@ -818,7 +815,6 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The target met with other gears side by side."""
-
         return five_bar(self)
 
     def table_names_shown(self) -> tuple[str, ...]:

@@ -37,7 +37,6 @@ class FiveBarLoads(LoadsDesign):
 
     @cached_property
     def own_links(self) -> tuple[str, ...]:
-        """The links that this design has."""
         if not self.has_idler and self.section.links.idler is not None:
             raise NoSolution("this five-bar has no idler", key="loads.links.idler", fix="omit its mass")
         return self.links if self.has_idler else self.links[:-1]

@@ -1151,7 +1151,6 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """Input gears of other modules side by side."""
-
         return input_gears(self)
 
     # Parts

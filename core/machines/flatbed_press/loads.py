@@ -253,7 +253,6 @@ class PressLoads(CamLoadsDesign):
         return self._needed if name == "preload" else super().course(name)
 
     def wanted(self, quantity: str) -> Iterable[Wanted]:
-        """The extremes that a quantity needs."""
         if quantity in ("preload_needed", "preload") and self.section.roller is not None:
             return (("preload", True),)
         return super().wanted(quantity)
@@ -264,7 +263,6 @@ class PressLoads(CamLoadsDesign):
         return found
 
     def cam_acceleration(self, phi: Reals) -> Reals:
-        """Its derivative by time [rad/s^2]."""
         found: Reals = self._cam_turn(phi).second * self.speed**2
         return found
 

@@ -214,7 +214,6 @@ class FlatbedPressSpec(TolerancedSpec):
         return any(each is not None for each in (self.input_gears, self.cylinder.gears, self.bed.pinion))
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
         gears: tuple[str, ...] = ("gear",) if self.has_gears else ()
         gears += ("loads",) if self.loads is not None else ()
         return ("press", "cam", *gears) if self.cam is not None else ("press", *gears)

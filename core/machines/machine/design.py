@@ -304,7 +304,6 @@ class Machine(OfMembers):
         return found
 
     def phase_of(self, member: str, what: str) -> float | None:
-        """Phase and its room of a free member [rad]."""
         return math.radians(self.phases[member] if what == "phase" else self.solution.room[member])
 
     @cached_property

@@ -276,7 +276,6 @@ class MachineLoads(OfMembers, LoadsDesign):
         return member.kind.design("loads", spec)  # type: ignore[return-value]
 
     def phase_of(self, member: str, what: str) -> float | None:
-        """Phase and its room of a free member [rad]."""
         return self.design.phase_of(member, what)
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:

@@ -349,6 +349,5 @@ class MachineSpec(TolerancedSpec):
         return name
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
         more = (("loads", self.loads), ("register", self.register_))
         return ("analyze", *(name for name, section in more if section is not None))

@@ -141,7 +141,6 @@ class PlanarLoads(LoadsDesign):
 
     @cached_property
     def masses(self) -> dict[str, Mass]:
-        """Masses by link, those of the file."""
         from gearlink.core.studies.loads.sources import mass_of
 
         for name in self.section.links:
@@ -215,7 +214,6 @@ class PlanarLoads(LoadsDesign):
 
     @property
     def input_torque_min_at(self) -> float:
-        """Input angle of the minimum [rad]."""
         return self._place(self.torque_range[0].place)
 
     def _place(self, found: float) -> float:

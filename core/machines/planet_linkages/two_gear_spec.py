@@ -159,6 +159,5 @@ class TwoGearFourBarSpec(DrivenSpec):
         return asked[0] if command == "analyze" and self.links.frame is None and len(asked) == 1 else ""
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
         loads = self._loads()
         return (*(self._syntheses() or ("analyze",)), "gear", *loads)

@@ -329,7 +329,6 @@ class DwellSynthesis(TwoGearFourBar):
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
-        """The longest dwell within that tolerance."""
         tolerance = self.output_tolerance
         return None if tolerance is None else self.drive.within(tolerance)
 

@@ -256,7 +256,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
     @cached_property
     def speed_turnings(self) -> list[Turning]:
-        """Extremes of the output's speed."""
         return self._turnings(1)
 
     @cached_property

@@ -42,7 +42,6 @@ class SixBarLoads(LoadsDesign):
 
     @cached_property
     def own_links(self) -> tuple[str, ...]:
-        """The links that this design has."""
         free = [gear for bodies in self._bodies for gear in bodies[1:-1]]
         for name in type(self.section.links).model_fields:
             if name not in LINKS and name not in free and getattr(self.section.links, name) is not None:

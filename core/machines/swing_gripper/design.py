@@ -748,7 +748,6 @@ class GripperCams(DiscCams):
 
     @property
     def discs(self) -> tuple[DiscCam, ...]:
-        """Main cam, and the return cam where there is one."""
         return (self.main_cam,) if self.return_cam is None else (self.main_cam, self.return_cam)
 
     def _disc_cam(self, name: str, roller: Roller, from_input: float) -> DiscCam:
@@ -1162,7 +1161,6 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         return found
 
     def law_phase(self, path: str, /) -> Phase:
-        """The phase of a law."""
         return self.motion.timing.phase(path.removeprefix("laws."))
 
     # Quantities

@@ -119,19 +119,16 @@ class CamOfFingers(DiscCam):
 
     @cached_property
     def max_pressure_angle(self) -> Extreme:
-        """Maximum magnitude of the pressure angle [rad] and its place."""
         found: Extreme | None = self._found.get("max_pressure_angle")
         return found or super().max_pressure_angle
 
     @cached_property
     def most_convex(self) -> Extreme:
-        """Maximum curvature of the pitch curve [1/mm] and its place."""
         found: Extreme | None = self._found.get("most_convex")
         return found or super().most_convex
 
     @cached_property
     def least_support(self) -> float:
-        """Minimum distance of the cam axis from the tangents of the pitch curve [mm]."""
         found: float | None = self._found.get("least_support")
         return super().least_support if found is None else found
 

@@ -357,6 +357,5 @@ class SwingGripperSpec(TolerancedSpec):
         return self
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
         cam = ("cam",) if self.cam is not None else ()
         return ("gripper", *cam, *self._loads())

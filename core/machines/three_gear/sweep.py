@@ -251,7 +251,6 @@ class Valleys(Valley):
         return Valleys(self.course.part(places), *rows)
 
     def reach(self, level: Any, left: Any, right: Any, sign: float = 1.0, start: Any = None) -> Any:
-        """As of one."""
 
         def above(x: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
             angle, ratio = Drives(*rows).rates(x, 1)

@@ -847,7 +847,6 @@ class WideSwingCam(StrokeCam):
         return tuple(end_of_contact(self, side) for side in self.sides(-1.0, 1.0))
 
     def largest_roller(self, zone: float) -> float:
-        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
         most = super().largest_roller(zone)
         return most if self._middle_gap == 0.0 else min(most, roller_before_middle(self, 0.5 - zone))
 

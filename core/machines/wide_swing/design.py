@@ -700,7 +700,6 @@ class WideSwingDesign(Design):
     @cached_property
     def shafts(self) -> ParallelShafts:
         """Both shafts of a twin-cam-parallel."""
-
         return ParallelShafts(self)
 
     @property
@@ -1416,5 +1415,4 @@ class WideSwingDesign(Design):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those of an optional section included."""
-
         return (*PATHS, *OF_GEARS)

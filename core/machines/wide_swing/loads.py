@@ -544,7 +544,6 @@ class Pressing:
     @cached_property
     def rests(self) -> tuple[SwingRest, ...]:
         """The rests of a whole cycle, each on the cam of the stroke before it; those of no length left out."""
-
         zones = zip(self.loads.strokes, self.loads.dwell_zones, strict=False)
         return tuple(SwingRest(stroke, *zone) for stroke, zone in zones if zone[1] > LEAST)
 
@@ -779,7 +778,6 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def pressing(self) -> Pressing:
         """How hard the rollers press."""
-
         return Pressing(self)
 
     @cached_property
@@ -835,7 +833,6 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def vibrating(self) -> Vibrating:
         """The rocker on the shaft that drives it."""
-
         return SwingVibrating(self)
 
     def raw(self, name: str) -> Any:

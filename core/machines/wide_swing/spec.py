@@ -415,6 +415,5 @@ class WideSwingSpec(TolerancedSpec):
             raise refused("the drive determines the rocker radius\nomit cam.rocker_radius", "cam.rocker_radius")
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
         cam = ("cam",) if self.cam is not None else ()
         return ("swing", *cam, *self._loads())

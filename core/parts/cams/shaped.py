@@ -176,7 +176,6 @@ def _made(asked: _Asked) -> Law:
 
 def _through_points(points: Sequence[Sequence[float]], *, to_speed: bool) -> Law:
     """The law through the points of a table."""
-
     (x, s), last = zip(*points, strict=True), len(points) - 1
     if not to_speed and s[-1] != 1.0:
         raise NoSolution(f"last s of a law from rest to rest: {unlike(s[-1], 1.0)} (required 1)", key=f"points[{last}]")

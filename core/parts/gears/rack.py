@@ -280,7 +280,6 @@ def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
 
 def _corner_in_rack(rack: RackMesh, noise: float) -> CornerGap | None:
     """The cut of the gear's tip corner into the rounding of the rack; None where there is none."""
-
     corner = CornerInRack(rack.pair, rack.center_distance, rack.end_depth)
     near = corner.deepest > rack.form_depth and rack.pair.tool(1).rounding_center(rack.pair.pressure_angle) >= 0.0
     return corner.least if near and corner.least.gap < noise else None
@@ -452,7 +451,6 @@ class RackPath(PathOfContact):
 
     @cached_property
     def length(self) -> float:
-        """g_alpha = rho_E1 - rho_A1."""
         return self.end - self.start
 
     @property
@@ -507,13 +505,11 @@ class RackSection(RootSection):
 
     @cached_property
     def chord(self) -> float:
-        """s_Fn*."""
         across = math.pi - 2.0 * self.tool.rounding_center(self.pair.pressure_angle)
         return across - 2.0 * math.sin(self.theta) * self.tool.rounding
 
     @cached_property
     def fillet_radius(self) -> float:
-        """rho_F*."""
         return self.tool.rounding
 
     @property
@@ -536,12 +532,10 @@ class RackSection(RootSection):
 
     @cached_property
     def load_angle(self) -> float:
-        """alpha_Fen."""
         return self.pair.pressure_angle
 
     @cached_property
     def moment_arm(self) -> float:
-        """h_Fe*."""
         slope, height = math.tan(self.pair.pressure_angle), self.load_radius
         half = math.pi / 4.0 - (height - self.shift) * slope
         section = self.shift - self.tool.addendum + math.cos(self.theta) * self.tool.rounding
@@ -569,7 +563,6 @@ class RackData(GearData):
 
     @cached_property
     def path(self) -> RackPath:
-        """The path of contact, with the lesser width."""
         return RackPath(self.pair, self._common_width)
 
     @property
@@ -582,7 +575,6 @@ class RackData(GearData):
 
     @cached_property
     def root(self) -> RackRoots:
-        """Root strength, at the upper allowances."""
         return RackRoots(**self._of_roots)
 
     def called(self, gear: int) -> str:
@@ -595,7 +587,6 @@ class RackData(GearData):
         return (0,)
 
     def rated_with(self, gear: int) -> str:
-        """What a root needs so that it can be rated."""
         if gear == 0:
             return super().rated_with(gear)
         return "give its tool a rounding and a pressure angle of at most 30 deg"

@@ -112,7 +112,6 @@ class CamLoadsDesign(LoadsDesign):
 
     @cached_property
     def machine(self) -> Machine:
-        """Everything together."""
         self.require_pair()
         return super().machine
 
@@ -201,7 +200,6 @@ class CamLoadsDesign(LoadsDesign):
         }[what]
 
     def wanted(self, quantity: str) -> Iterable[Wanted]:
-        """The extremes that a quantity needs."""
         if quantity not in _OF_EXTREMES:
             return super().wanted(quantity)
         course, greatest = quantity.removesuffix("_max").removesuffix("_min"), not quantity.endswith("_min")

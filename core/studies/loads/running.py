@@ -106,7 +106,6 @@ class Running:
     @cached_property
     def motor_run(self) -> MotorRun:
         """The run with the motor, over an angle that rises with time."""
-
         self._require_inertia()
         machine = self.design.machine
         forward = machine.speed > 0.0

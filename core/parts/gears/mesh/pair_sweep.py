@@ -292,7 +292,6 @@ class GearPairs(GearPair):
 
     @property
     def tip_shortening(self) -> float:
-        """dy, one number of both gears."""
         return 0.0 - self.tip_alteration[0]
 
     @property
@@ -304,7 +303,6 @@ class GearPairs(GearPair):
         return np.where(self.slides, self._sliding_at_root(gear), np.nan)
 
     def tool(self, gear: int) -> RackTool:
-        """The given one, or that of the profile."""
         return self.tools[gear] or self._standard_tool
 
     @cached_property
@@ -354,7 +352,6 @@ class GearPairs(GearPair):
 
     @cached_property
     def span_teeth(self) -> Any:
-        """Numbers k of teeth whose span measurement touches nearest to the circle r + x m."""
         return tuple(np.where(high[1] < low[1], high[0], low[0]) for low, high in self._rivals)
 
     @cached_property
@@ -385,7 +382,6 @@ class PathsOfContact(PathOfContact):
 
     @property
     def sliding_at_tip(self) -> Any:
-        """zeta at the tips."""
         return self._sliding_at_tip()
 
     def _lost(self, gear: int, root_end: float) -> Any:
@@ -485,7 +481,6 @@ class RingPairs(GearPairs):
 
     @cached_property
     def exist(self) -> Any:
-        """Where teeth and distance or shifts leave a pressure angle."""
         if self.given_distance is not None:
             return super().exist
         return self.shift_sum <= bound_of_shift_sum(self)
@@ -532,7 +527,6 @@ class RingPairs(GearPairs):
 
     @property
     def form_is_doubtful(self) -> Any:
-        """Where the cut of fillet and involute was not found."""
         return ~self._pointed(0) & np.isnan(self.form_radius_of(0))
 
     @property
@@ -580,12 +574,10 @@ class InternalInterferences(InternalInterference):
 
     @cached_property
     def tip_fouling_angle(self) -> Any:
-        """F [rad]."""
         return self._fouling_angle
 
     @cached_property
     def radial_assembly_angle(self) -> Any:
-        """G [rad]."""
         always = self._always_opens
         return np.where(self._is_too_large, -np.inf, np.where(always, np.nan, self._assembly_angle))
 

@@ -387,7 +387,6 @@ class GearDatas(GearData):
 
     @cached_property
     def root(self) -> RootStresses:
-        """Root strength, at the upper allowances."""
         return RootStresses(**self._of_roots)
 
 
