@@ -20,15 +20,8 @@ from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
 from gearlink.cli.quick import run_line
-from gearlink.cli.typer_commands import (
-    ReportFormat,
-    Show,
-    register_exploring,
-    register_export,
-    register_pictures,
-    register_reference,
-    register_tolerances,
-)
+from gearlink.cli.typer_commands import COMMANDS as OTHERS
+from gearlink.cli.typer_commands import ReportFormat, Show
 from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, share, takes
 from gearlink.core.base.kinds import KINDS
 
@@ -171,13 +164,8 @@ def _batch(
     raise typer.Exit(run_batch(places, BatchOptions(design, format, out, unchanged, share(shard), jobs, dask, more)))
 
 
-register_reference(app)
-register_export(app)
-register_exploring(app)
-register_tolerances(app)
-register_pictures(app)
-app.command("laws")(laws)
-app.command("gears")(gears)
+for _name, _command in {**OTHERS, "laws": laws, "gears": gears}.items():
+    app.command(_name)(_command)
 
 
 @app.command("help")
@@ -193,8 +181,8 @@ def _help(
     raise typer.Exit(invoke([*(words or ()), "--help"]))
 
 
-for _command in (*app.registered_commands, *synth.registered_commands):  # whole in the list of commands, not cut short
-    _command.short_help = (_command.callback.__doc__ or "").strip().partition("\n")[0] if _command.callback else None
+for _each in (*app.registered_commands, *synth.registered_commands):  # whole in the list of commands, not cut short
+    _each.short_help = (_each.callback.__doc__ or "").strip().partition("\n")[0] if _each.callback else None
 
 
 @app.callback(invoke_without_command=True)

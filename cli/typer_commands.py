@@ -6,6 +6,7 @@ Each imports what it runs when it runs.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -35,19 +36,6 @@ class PageFormat(StrEnum):
 
 
 PageOption = Annotated[PageFormat, option("format", help="format of the answer")]
-
-
-def register_reference(app: typer.Typer) -> None:
-    """Add the commands of this module to the command tree."""
-    for name, command in (
-        ("check", _check),
-        ("diff", _diff),
-        ("new", _new),
-        ("schema", _schema),
-        ("explain", _explain),
-        ("verify", _verify),
-    ):
-        app.command(name)(command)
 
 
 @takes("quiet")
@@ -217,13 +205,6 @@ class Paper(StrEnum):
     A4 = "A4"
 
 
-def register_pictures(app: typer.Typer) -> None:
-    """Add the commands of this module to the command tree."""
-    app.command("chart")(_chart)
-    app.command("animate")(_animate)
-    app.command("sheet")(_sheet)
-
-
 @takes(
     *("format", "plot", "plot_format", "dpi", "out", "overrides", "all", "digits", "color", "quiet"),
     plot="write the figure NAME-chart.png",
@@ -352,12 +333,6 @@ Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="
 Scheduler = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compute on this scheduler's Dask cluster")]
 
 
-def register_tolerances(app: typer.Typer) -> None:
-    """Add the commands of this module to the command tree."""
-    app.command("tolerance")(_tolerance)
-    app.command("register")(_register)
-
-
 def _place(text: str) -> str | float:
     """An input angle [deg], or the name of a place."""
     try:
@@ -432,11 +407,6 @@ def _register(
         raise typer.Exit(run_design("register", spec, options))
 
 
-def register_exploring(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("explore")(_explore)
-
-
 @takes("format", "plot", "plot_format", "out", "overrides", "digits", "strict", "color", "quiet")
 def _explore(
     source: Annotated[str, typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
@@ -467,11 +437,6 @@ def _explore(
     options = keyed(options, "sampling", {"--budget": budget, "--seed": seed})
     asked = Exploring(options, source, store, resume, jobs, dask, show, write)
     raise typer.Exit(run_explore(asked))
-
-
-def register_export(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("export")(_export)
 
 
 @takes("out", "overrides", "quiet", quiet="do not list the files that are written")
@@ -529,3 +494,20 @@ def _export(
 
     within = DEFAULT_TOLERANCE if tolerance is None else tolerance
     raise typer.Exit(run_export(spec, Export(tuple(dict.fromkeys(as_)), tuple(part), within, curve, options, width)))
+
+
+COMMANDS: dict[str, Callable[..., None]] = {
+    "check": _check,
+    "diff": _diff,
+    "new": _new,
+    "schema": _schema,
+    "explain": _explain,
+    "verify": _verify,
+    "export": _export,
+    "explore": _explore,
+    "tolerance": _tolerance,
+    "register": _register,
+    "chart": _chart,
+    "animate": _animate,
+    "sheet": _sheet,
+}

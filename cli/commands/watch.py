@@ -6,7 +6,7 @@ import json
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
 from html import escape
@@ -52,6 +52,19 @@ _FULL = b"HTTP/1.0 503 Service Unavailable\r\nConnection: close\r\nContent-Lengt
 def own_names(port: int) -> set[str]:
     """How a reader on this machine may call a port of its own, as `Host` has it."""
     return {f"{name}:{port}" for name in _NAMES} | (set(_NAMES) if port == _HTTP else set())
+
+
+def is_asked_locally(port: int, hosts: Sequence[str], origins: Sequence[str]) -> bool:
+    """Whether a page is asked for by a name of the loopback address, once, and not by another page.
+
+    A page of elsewhere whose own name was made to mean this machine sends that name.
+    """
+    own = own_names(port)
+    return (
+        len(hosts) == 1
+        and hosts[0].strip().lower() in own
+        and all(origin.strip().lower().removeprefix("http://") in own for origin in origins)
+    )
 
 
 class Board:
@@ -187,18 +200,8 @@ def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHand
                 self.send_error(HTTPStatus.NOT_FOUND)
 
         def _local(self) -> bool:
-            """Whether the page is asked for by a name of the loopback address, once, and not by another page.
-
-            A page of elsewhere whose own name was made to mean this machine sends that name.
-            """
             port = self.server.server_address[1]  # type: ignore[index]
-            own = own_names(int(port))
-            hosts, origins = (self.headers.get_all(name, []) for name in ("Host", "Origin"))
-            return (
-                len(hosts) == 1
-                and hosts[0].strip().lower() in own
-                and all(origin.strip().lower().removeprefix("http://") in own for origin in origins)
-            )
+            return is_asked_locally(int(port), *(self.headers.get_all(name, []) for name in ("Host", "Origin")))
 
         def _answer(self, data: bytes, kind: str) -> None:
             self.send_response(HTTPStatus.OK)

@@ -321,10 +321,7 @@ def three_gears(design: Any) -> Makers:
     titles = {"gear1": "gear 1, on the crank", "gear3": "gear 3, the idler", "gear5": "gear 5, the output"}
 
     def of(label: str, one: str, other: str) -> Makers:
-        words = (titles[one], titles[other])
-        hands, rim = train_hands(design, label), design.outer_rim(label)
-        data = partial(_data_of, design, label)
-        return of_mesh(design.meshes[label], (one, other), words, "gears", data_of=data, rim=rim, hands=hands)
+        return in_machine(design, label, (one, other), (titles[one], titles[other]))
 
     first = of("crank_idler", *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
     second = of("idler_output", "gear3", "gear5")
@@ -346,18 +343,12 @@ _OF_MATE = ("teeth of the mating gear", "centre distance", "centre distance allo
 
 def two_gears(design: Any) -> Makers:
     """The coupler's gear and the output."""
-    titles, hands = ("gear 2, on the coupler", "gear 5, the output"), train_hands(design)
-    rim = design.outer_rim()
-    data = partial(_data_of, design)
-    return of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", data_of=data, rim=rim, hands=hands)
+    return in_machine(design, "", ("gear2", "gear5"), ("gear 2, on the coupler", "gear 5, the output"))
 
 
 def hypocycloid(design: Any) -> Makers:
     """Planet and ring."""
-    titles, hands = ("planet", "ring gear, fixed"), train_hands(design)
-    rim = design.outer_rim()
-    data = partial(_data_of, design)
-    return of_mesh(design.mesh, ("planet", "ring"), titles, "gears", data_of=data, rim=rim, hands=hands)
+    return in_machine(design, "", ("planet", "ring"), ("planet", "ring gear, fixed"))
 
 
 def mutilated(design: Any) -> Makers:
@@ -377,6 +368,12 @@ def mutilated(design: Any) -> Makers:
     if design.spec.locking is not None:
         found |= {"disc": lambda: locking_disc(design), "plate": lambda: locking_plate(design)}
     return found
+
+
+def in_machine(design: Any, label: str, names: tuple[str, str], titles: tuple[str, str]) -> Makers:
+    """Both gears of a mesh inside a machine."""
+    rim, hands, data = design.outer_rim(label), train_hands(design, label), partial(_data_of, design, label)
+    return of_mesh(design.meshes[label], names, titles, "gears", data_of=data, rim=rim, hands=hands)
 
 
 def _data_of(design: Any, label: str = "") -> GearData:
@@ -399,10 +396,8 @@ def five_bar(design: Any) -> Makers:
     found: Makers = {}
     for label, mesh in design.meshes.items():
         names = label.split("_") if label else _five_bar_gears(design, mesh)
-        parts = (f"{names[0]}_gear", f"{names[1]}_gear")
-        titles = (f"{names[0]} gear", f"{names[1]} gear")
-        hands, rim, data = train_hands(design, label), design.outer_rim(label), partial(_data_of, design, label)
-        found |= of_mesh(mesh, parts, titles, "gears", data_of=data, rim=rim, hands=hands)
+        parts, titles = ((f"{names[0]}{end}", f"{names[1]}{end}") for end in ("_gear", " gear"))
+        found |= in_machine(design, label, parts, titles)
     return found | ({f"{PATH}M": partial(_path, design, "M")} if design.is_path else {})
 
 
@@ -719,7 +714,7 @@ def locking_disc(design: MutilatedGearDwell) -> Part:
             "to be fixed to the wheel next to its teeth, the middle of an arc in the middle of a gap",
             "frame: axis of the wheel at the origin, middle of an arc on the x axis",
         ),
-        findings=_findings_of_lock(design),
+        findings=_failed(design, "locking"),
         lines=partial(sizes.disc_lines, design),
         dimensions=sizes.disc(lock, groups),
     )
@@ -744,7 +739,7 @@ def locking_plate(design: MutilatedGearDwell) -> Part:
             "to be fixed to the driven gear next to its teeth, the middle of an arc in the middle of a tooth",
             "frame: axis of the driven gear at the origin, middle of an arc on the x axis",
         ),
-        findings=_findings_of_lock(design),
+        findings=_failed(design, "locking"),
         lines=partial(sizes.plate_lines, design),
         dimensions=sizes.plate(lock),
     )
@@ -756,8 +751,9 @@ def _lock_of(design: MutilatedGearDwell) -> Lock:
     return lock
 
 
-def _findings_of_lock(design: MutilatedGearDwell) -> tuple[str, ...]:
-    return tuple(check.message for check in design.check("locking") if check.status == "fail")
+def _failed(design: Any, check: str) -> tuple[str, ...]:
+    """Messages of the findings of a check that fail."""
+    return tuple(found.message for found in design.check(check) if found.status == "fail")
 
 
 def _half(profile: ToothProfile) -> Iterator[_Piece]:
@@ -967,8 +963,8 @@ def _served(name: str, design: Any) -> tuple[AnyCam, bool]:
 def _swing_findings(cam: AnyCam, design: Any) -> tuple[str, ...]:
     """Undercut of this cam; the findings of a design with two shapes tell them apart by their words."""
     others = [words for words, other in design.cams.items() if other is not cam]
-    failed = [check.message for check in design.check("cam-undercut") if check.status == "fail"]
-    return tuple(message for message in failed if not any(words in message for words in others))
+    found = _failed(design, "cam-undercut")
+    return tuple(message for message in found if not any(words in message for words in others))
 
 
 def _pitch_of(cam: AnyCam, mirror: bool) -> Callable[[Reals], Points]:
@@ -1036,7 +1032,7 @@ def cycloidal_disc(design: Any) -> Part:
             f"{disc.pin:.9g} mm on a circle of radius {disc.circle:.9g} mm",
             "frame: centre of the disc at the origin, a valley between two lobes on the x axis",
         ),
-        findings=tuple(check.message for check in design.check("undercut") if check.status == "fail"),
+        findings=_failed(design, "undercut"),
         extra_columns=("parameter [deg]", "curvature_radius [mm]"),
         width=spec.width,
         dimensions=sizes.lobes(disc),
@@ -1094,7 +1090,7 @@ def geneva_wheel(design: Any) -> Part:
             f"distance of the axes {spec.center_distance:.9g} mm",
             "frame: axis of the wheel at the origin, the middle of a slot on the x axis",
         ),
-        findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
+        findings=_failed(design, "locking"),
         lines=partial(sizes.wheel_lines, design),
         dimensions=sizes.wheel(outlines),
     )
@@ -1125,7 +1121,7 @@ def geneva_driver(design: Any) -> Part:
             f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius{deep}",
             "frame: axis of the crank at the origin, a pin on the x axis",
         ),
-        findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
+        findings=_failed(design, "locking"),
         lines=partial(sizes.driver_lines, design, outlines),
         dimensions=sizes.driver(outlines),
     )

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs
 
-from gearlink.cli.commands.watch import LOOPBACK, own_names
+from gearlink.cli.commands.watch import LOOPBACK, is_asked_locally, own_names
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
@@ -159,13 +159,7 @@ class Guard:
             await self._app(scope, receive, lambda message: send(self._with_headers(message)))
 
     def _local(self, scope: Scope) -> bool:
-        own = own_names(self._port)
-        hosts, origins = (_headers(scope, name) for name in (b"host", b"origin"))
-        return (
-            len(hosts) == 1
-            and hosts[0].strip().lower() in own
-            and all(origin.strip().lower().removeprefix("http://") in own for origin in origins)
-        )
+        return is_asked_locally(self._port, *(_headers(scope, name) for name in (b"host", b"origin")))
 
     def _known(self, scope: Scope) -> bool:
         given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [])

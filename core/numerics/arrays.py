@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.rows import row_numbers
 
 # The intermediate arrays of a block stay in the cache; above 8192 complex numbers the C library maps and clears new
@@ -48,6 +51,18 @@ def number_of(values: ArrayLike) -> Any:
     return found.item() if found.size == 1 else found
 
 
+def where_it_exists(function: Callable[[float], float], values: ArrayLike) -> Reals:
+    """A function at each of some places, not a number where it refuses one."""
+
+    def value(x: float) -> float:
+        try:
+            return function(x)
+        except NoSolution:
+            return math.nan
+
+    return np.array([value(float(x)) for x in np.atleast_1d(np.asarray(values, dtype=float))])
+
+
 def distinct(values: ArrayLike) -> NDArray[Any]:
     """Each value once, ascending.
 
@@ -87,6 +102,20 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
     rows = row_numbers(samples, count)
     angles: Reals = np.arange(rows.start, rows.stop, dtype=np.float64) * (360.0 * turns / count)
     return angles
+
+
+def range_rows(start: float, end: float, samples: int | None) -> Reals:
+    """Places that divide a range into equal steps, both ends among them.
+
+    Parameters
+        samples : int - steps, 180 where none are given; `Rows`: a part of all places
+    Example
+        >>> range_rows(0.0, 1.0, 2).tolist()
+        [0.0, 0.5, 1.0]
+    """
+    count = samples or 180
+    rows = row_numbers(samples, count + 1)
+    return np.asarray(start + (end - start) * (np.arange(rows.start, rows.stop) / count))
 
 
 def product(one: Points | complex, other: Points) -> Points:

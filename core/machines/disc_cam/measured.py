@@ -514,9 +514,7 @@ class MeasuredMotion:
     def evaluate(self, phi: Reals, order: int = 2, *, side: int = 1) -> list[Reals]:
         """Lift and its derivatives by the cam angle [mm or rad]; `side` is for laws that jump."""
         del side
-        value, *rates = self.cam.motion(phi)
-        sense = self.cam.outward_sense
-        return [self.cam.outward(value) - self.least, *(sense * rate for rate in rates)][: order + 1]
+        return _lift(self.cam, self.cam.motion(phi), self.least)[: order + 1]
 
     @cached_property
     def whole(self) -> list[Stroke]:
@@ -559,9 +557,13 @@ class OverProfile:
 
     def evaluate(self, t: Reals, order: int = 2) -> list[Reals]:
         """Lift and its derivatives by the cam angle [mm or rad]."""
-        value, *rates = self.cam.over_profile(t)
-        sense = self.cam.outward_sense
-        return [self.cam.outward(value) - self.least, *(sense * rate for rate in rates)][: order + 1]
+        return _lift(self.cam, self.cam.over_profile(t), self.least)[: order + 1]
+
+
+def _lift(cam: MeasuredCam, rates: Sequence[Reals], least: Any) -> list[Reals]:
+    """Lift and its derivatives from the coordinate of the follower and its own, outward [mm or rad]."""
+    value, *others = rates
+    return [cam.outward(value) - least, *(cam.outward_sense * rate for rate in others)]
 
 
 class MeasuredClosing(Closing):

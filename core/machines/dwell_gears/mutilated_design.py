@@ -406,14 +406,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
     @property
     def generated_root_stress(self) -> tuple[float | None, float | None] | None:
         """The same with the load and its factors [N/mm^2]; None without load or width."""
-        scales = self.mesh_data[""].root_stress_scale
-        if not any(scales):
-            return None
-        one, other = (
-            None if factor is None else factor * scale
-            for factor, scale in zip(self.generated_root_factor, scales, strict=True)
-        )
-        return one, other
+        return self.mesh_data[""].root_stress_of(self.generated_root_factor)
 
     def table_root(self, _samples: int | None = None) -> Table:
         """Stress along the fillets of the tooth next to a gap and of the driven gear; without load over F_t/(b m)."""

@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from gearlink.core.base.report import Table
-from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.planar.dyads import folded
 from gearlink.core.machines.planar.system import Jets, scaled
-from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
+from gearlink.core.numerics.arrays import Points, Reals, range_rows, turn_degrees
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.design import PlanarMechanism
@@ -159,7 +158,6 @@ def moved(structure: Structure, name: str) -> tuple[Moved, ...]:
 # Tables
 
 MOST_TURNS = 100
-_RANGE_ROWS = 180
 _REAL = {"rad": ("rad/s", "rad/s^2", "rad/s^3"), "mm": ("mm/s", "mm/s^2", "mm/s^3")}
 
 
@@ -167,11 +165,9 @@ def inputs(design: PlanarMechanism, samples: int | None) -> Reals:
     """Inputs of the rows, in deg or mm."""
     if (turns := design.period_turns) is not None:
         return turn_degrees(samples, min(turns, MOST_TURNS))
-    asked, count = design.spec.range, samples or _RANGE_ROWS
+    asked = design.spec.range
     assert asked is not None, "without a period there is a range"
-    rows = row_numbers(samples, count + 1)
-    share = np.arange(rows.start, rows.stop) / count
-    return np.asarray(asked.start + (asked.end - asked.start) * share)
+    return range_rows(asked.start, asked.end, samples)
 
 
 def _made(design: PlanarMechanism, name: str, shown: Iterable[Shown], samples: int | None) -> Table:

@@ -16,11 +16,10 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
 from gearlink.core.base.remedies.ways import Way, either, modules, shared, thinner, up
 from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
 from gearlink.core.machines.six_bar.loop import Course, SixBar, joined_by, train_relation
 from gearlink.core.machines.six_bar.spec import LINKS, GearedSixBarSpec, SixTrain
-from gearlink.core.numerics.arrays import Reals, turn_degrees
+from gearlink.core.numerics.arrays import Reals, range_rows, turn_degrees
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import sign_changes
 from gearlink.core.numerics.roots_sweep import bracketed_roots
@@ -332,11 +331,9 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         """Input angles of a table [deg]."""
         if self.period_turns is not None:
             return turn_degrees(samples, self.period_turns)
-        asked, count = self.spec.range, samples or 180
+        asked = self.spec.range
         assert asked is not None, "without a period there is a range"
-        rows = row_numbers(samples, count + 1)
-        share = np.arange(rows.start, rows.stop) / count
-        return np.asarray(asked.start + (asked.end - asked.start) * share)
+        return range_rows(asked.start, asked.end, samples)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Directions of all links, speed and acceleration of the output, transmission angle."""

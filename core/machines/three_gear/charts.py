@@ -17,7 +17,7 @@ from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.train import GearTrain
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, where_it_exists
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 
 _SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `symmetric`
@@ -169,7 +169,7 @@ def window_over_ratio(i3: ArrayLike, tolerance: float) -> Reals:
         >>> np.degrees(window_over_ratio([-1.8, -2.0], math.radians(1.0))).round(6).tolist()
         [88.177957, 87.702903]
     """
-    return _each(lambda ratio: symmetric.longest_window(ratio, tolerance), i3)
+    return where_it_exists(lambda ratio: symmetric.longest_window(ratio, tolerance), i3)
 
 
 def window_over_tolerance(tolerance: ArrayLike, i3: float) -> Reals:
@@ -184,7 +184,7 @@ def window_over_tolerance(tolerance: ArrayLike, i3: float) -> Reals:
         >>> np.degrees(window_over_tolerance(np.radians([0.5, 1.0]), -1.8)).round(6).tolist()
         [70.436492, 88.177957]
     """
-    return _each(lambda band: symmetric.longest_window(i3, band), tolerance)
+    return where_it_exists(lambda band: symmetric.longest_window(i3, band), tolerance)
 
 
 def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
@@ -207,14 +207,4 @@ def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
         linkage, train = symmetric.symmetric_linkage(ratio, 1.0), GearTrain(1.0, -i3, 1.0)
         return Output(linkage, train).within(FRAME_TOLERANCE).crank_angle
 
-    return _each(window, frame_ratio)
-
-
-def _each(function: Callable[[float], float], values: ArrayLike) -> Reals:
-    def value(x: float) -> float:
-        try:
-            return function(x)
-        except NoSolution:
-            return math.nan
-
-    return np.array([value(float(x)) for x in np.atleast_1d(np.asarray(values, dtype=float))])
+    return where_it_exists(window, frame_ratio)

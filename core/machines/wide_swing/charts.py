@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from functools import partial
 from typing import Literal
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.wide_swing.cam import WideSwingCam, middle_radius_estimate
 from gearlink.core.machines.wide_swing.device import Pneumatic, Spring, least_pivot_ratio_pneumatic
 from gearlink.core.machines.wide_swing.law import ElasticLaw
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, where_it_exists
 
 Name = Literal["velocity_peak", "acceleration_peak", "energy_parameter"]
 
@@ -23,16 +19,6 @@ def _law(gamma: float, pivot_ratio: float | None, stretch_ratio: float | None) -
     """The law of a cylinder, or of a spring where there is a stretch ratio; without a pivot ratio the least of (3)."""
     ratio = least_pivot_ratio_pneumatic(gamma) if pivot_ratio is None else pivot_ratio
     return ElasticLaw(Pneumatic(ratio) if stretch_ratio is None else Spring(ratio, stretch_ratio), gamma)
-
-
-def _over(swing: ArrayLike, value: Callable[[float], float]) -> Reals:
-    def found(gamma: float) -> float:
-        try:
-            return value(gamma)
-        except NoSolution:
-            return math.nan
-
-    return np.array([found(float(gamma)) for gamma in np.atleast_1d(np.asarray(swing, dtype=float))])
 
 
 def peaks(name: Name, swing: ArrayLike, pivot_ratio: float, *, stretch_ratio: float | None = None) -> Reals:
@@ -46,6 +32,7 @@ def peaks(name: Name, swing: ArrayLike, pivot_ratio: float, *, stretch_ratio: fl
     Returns
         peak : array [1] - not a number where there is no law
     Example
+        >>> import numpy as np
         >>> velocity_peak(np.radians([120.0]), 2.5).round(9).tolist()
         [1.687523657]
         >>> energy_parameter(np.radians([120.0]), 2.5).round(9).tolist()
@@ -54,7 +41,7 @@ def peaks(name: Name, swing: ArrayLike, pivot_ratio: float, *, stretch_ratio: fl
     Source
         wide-swing dissertation, chapter 2, (8), (10), (9); of springs (13), (15), (14)
     """
-    return _over(swing, lambda gamma: float(getattr(_law(gamma, pivot_ratio, stretch_ratio), name)))
+    return where_it_exists(lambda gamma: float(getattr(_law(gamma, pivot_ratio, stretch_ratio), name)), swing)
 
 
 def curvature_ratio(
@@ -72,6 +59,7 @@ def curvature_ratio(
     Returns
         ratio : array [1] - not a number where B alpha is not above 1, or the profile does not exist
     Example
+        >>> import numpy as np
         >>> curvature_ratio(np.radians([120.0]), np.radians(60.0)).round(6).tolist()
         [0.012907]
 
@@ -83,7 +71,7 @@ def curvature_ratio(
         cam = WideSwingCam("twin-rocker", _law(gamma, pivot_ratio, stretch_ratio), cycle_angle, 1.0, 1e-3)
         return middle_radius_estimate(cam) / cam.max_radius
 
-    return _over(swing, value)
+    return where_it_exists(value, swing)
 
 
 velocity_peak = partial(peaks, "velocity_peak")

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.motion_law import Law as Law
+from gearlink.core.parts.cams.motion_law import largest, peak_power
 
 if TYPE_CHECKING:
     import numpy as np
@@ -449,7 +449,7 @@ def _velocity_law(name: str, half: FirstHalf) -> Law:
         peak_acceleration=half.peak_velocity,
         interior_jerk=half.peak_acceleration,
         peak_jerk=half.peak_acceleration,
-        peak_power=_peak_power(derivatives),
+        peak_power=peak_power(derivatives),
         joints=_joints(half),
     )
 
@@ -464,37 +464,19 @@ def _free_law(name: str, base: FirstHalf, addition: FirstHalf, kappa: float) -> 
     def single(k: int) -> Callable[[float], float]:
         return lambda u: float(derivatives(u, k, k)[0])
 
-    jerk = _largest(single(3), single(4))
+    jerk = largest(single(3), single(4))
     return Law(
         name=name,
         kind="rest-to-speed",
         derivatives=derivatives,
         kappa=kappa,
         peak_velocity=1.0,
-        peak_acceleration=_largest(single(2), single(3)),
+        peak_acceleration=largest(single(2), single(3)),
         interior_jerk=jerk,
         peak_jerk=jerk,
-        peak_power=_peak_power(derivatives),
+        peak_power=peak_power(derivatives),
         joints=tuple(sorted({*_joints(base), *_joints(addition)})),
     )
-
-
-def _peak_power(derivatives: Callable[[Any, int, int], tuple[Any, ...]]) -> float:
-    def power(u: float) -> float:
-        v, a = derivatives(u, 1, 2)
-        return float(v * a)
-
-    def slope(u: float) -> float:
-        v, a, j = derivatives(u, 1, 3)
-        return float(a * a + v * j)
-
-    return _largest(power, slope)
-
-
-def _largest(f: Callable[[float], float], slope: Callable[[float], float]) -> float:
-    """Largest |f| on [0, 1]: the ends and the roots of the slope, sought between 32 places."""
-    places = [i / 32.0 for i in range(33)]
-    return max(abs(f(u)) for u in (0.0, 1.0, *roots_on(slope, places)))
 
 
 _SCCA = {

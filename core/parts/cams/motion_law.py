@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.roots import roots_on
 
 if TYPE_CHECKING:
     import numpy as np
@@ -87,3 +88,23 @@ def _check_range(name: str, x: Any) -> None:
         raise NoSolution(
             f"motion law {name}: x from {low:.4g} to {high:.4g} is outside 0 to 1", fix="reduce it to the phase"
         )
+
+
+def peak_power(derivatives: Callable[[Any, int, int], tuple[Any, ...]], steps: int = 32) -> float:
+    """Largest |v a| of a law, sought between so many places."""
+
+    def power(u: float) -> float:
+        v, a = derivatives(u, 1, 2)
+        return float(v * a)
+
+    def slope(u: float) -> float:
+        v, a, j = derivatives(u, 1, 3)
+        return float(a * a + v * j)
+
+    return largest(power, slope, steps)
+
+
+def largest(f: Callable[[float], float], slope: Callable[[float], float], steps: int = 32) -> float:
+    """Largest |f| on [0, 1]: the ends and the roots of the slope, sought between so many places."""
+    places = [i / steps for i in range(steps + 1)]
+    return max(abs(f(u)) for u in (0.0, 1.0, *roots_on(slope, places)))

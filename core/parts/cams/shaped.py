@@ -20,8 +20,7 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.roots import roots_on
-from gearlink.core.parts.cams.motion_law import Law
+from gearlink.core.parts.cams.motion_law import Law, largest, peak_power
 
 if TYPE_CHECKING:
     from gearlink.core.parts.cams.optimal import Optimum, Wish
@@ -260,24 +259,14 @@ def _harmonic(start: Sequence[float], end: Sequence[float]) -> Law:
     return _law("harmonic", derivatives, _peaks_by_slopes(derivatives), Shaping("harmonic"))
 
 
+_LOOKS = 64
+
+
 def _peaks_by_slopes(derivatives: Callable[[Any, int, int], tuple[Any, ...]]) -> tuple[float, ...]:
-    places = [i / 64.0 for i in range(65)]
-
-    def greatest(f: Callable[[float], float], slope: Callable[[float], float]) -> float:
-        return max(abs(f(x)) for x in (0.0, 1.0, *roots_on(slope, places)))
-
     def single(k: int) -> Callable[[float], float]:
         return lambda x: float(derivatives(x, k, k)[0])
 
-    def power(x: float) -> float:
-        v, a = derivatives(x, 1, 2)
-        return float(v * a)
-
-    def power_slope(x: float) -> float:
-        v, a, j = derivatives(x, 1, 3)
-        return float(a * a + v * j)
-
-    return (*(greatest(single(k), single(k + 1)) for k in (1, 2, 3)), greatest(power, power_slope))
+    return (*(largest(single(k), single(k + 1), _LOOKS) for k in (1, 2, 3)), peak_power(derivatives, _LOOKS))
 
 
 # Polynomials

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -343,13 +344,14 @@ class GearData:
     @property
     def generated_root_stress(self) -> Both | None:
         """The same with the load and all its factors [N/mm^2]; None without load or width."""
+        return self.root_stress_of(self.generated_root_factor)
+
+    def root_stress_of(self, factors: Sequence[float | None]) -> Both | None:
+        """Stress of roots by their factors over F_t/(b m) [N/mm^2]; None without load or width."""
         scale = self.root_stress_scale
         if not any(scale):
             return None
-        one, other = (
-            None if factor is None else factor * each
-            for factor, each in zip(self.generated_root_factor, scale, strict=True)
-        )
+        one, other = (None if factor is None else factor * each for factor, each in zip(factors, scale, strict=True))
         return one, other
 
     @property

@@ -17,7 +17,7 @@ import numpy as np
 from gearlink.core.base.design_axis import Evaluated, as_arrays, put_in
 from gearlink.core.numerics.arrays import Mask, Reals, distinct
 from gearlink.core.studies.explore.base import singles
-from gearlink.core.studies.explore.pareto import best_boxes, counted, front
+from gearlink.core.studies.explore.pareto import Indices, best_boxes, counted, front
 from gearlink.core.studies.explore.preparing import problem_of
 from gearlink.core.studies.explore.problem import Problem
 
@@ -161,10 +161,7 @@ def kept(problem: Problem, index: Any, found: Evaluated) -> Chunk:
     what = judged(problem, found, len(index))
     misses = {name: _miss(fails, what.total, values, index) for name, (fails, values) in what.failing.items()}
     places = np.flatnonzero(what.total == 0)
-    multiples = counted(what.objectives[places], _resolution(problem))
-    best = front(multiples)
-    if len(problem.objectives) == 1:
-        best = distinct(np.concatenate((best, best_boxes(multiples, RANKED))))
+    best = _best(problem, counted(what.objectives[places], _resolution(problem)))
     rows = np.column_stack([index[places[best]].astype(float), what.columns[:, places[best]].T])
     return Chunk(len(index), len(places), misses, rows)
 
@@ -279,11 +276,13 @@ def fold(problem: Problem, parts: Sequence[Reals]) -> Reals:
     width = 1 + len(problem.shown)
     rows = np.concatenate([np.empty((0, width)), *(part for part in parts if len(part))])
     rows = rows[np.argsort(rows[:, 0], kind="stable")]
-    multiples = multiples_of(problem, rows)
+    return rows[_best(problem, multiples_of(problem, rows))]
+
+
+def _best(problem: Problem, multiples: Reals) -> Indices:
+    """Numbers of the designs on the front, of one objective also of the next ones."""
     best = front(multiples)
-    if len(problem.objectives) == 1:
-        best = distinct(np.concatenate((best, best_boxes(multiples, RANKED))))
-    return rows[best]
+    return distinct(np.concatenate((best, best_boxes(multiples, RANKED)))) if len(problem.objectives) == 1 else best
 
 
 def multiples_of(problem: Problem, rows: Reals) -> Reals:

@@ -416,19 +416,18 @@ class Vibrating:
 
     def bend(self, phi: Reals) -> Reals:
         """Second derivative of the output's place by the input angle [deg/rad^2 or mm/rad^2]."""
-        mechanism = self.design.machine.at(phi)
-        link = mechanism.links[self.design.output]
-        if self.slides:
-            return dot(mechanism.travel[self.design.output], link.origin.second)
-        return _DEGREES * link.turn.second
+        return self._course(phi, 2)
 
     def place(self, phi: Reals) -> Reals:
         """Place of the output [deg or mm]."""
+        return self._course(phi, 0)
+
+    def _course(self, phi: Reals, order: int) -> Reals:
         mechanism = self.design.machine.at(phi)
         link = mechanism.links[self.design.output]
         if self.slides:
-            return dot(mechanism.travel[self.design.output], link.origin.value)
-        return _DEGREES * link.turn.value
+            return dot(mechanism.travel[self.design.output], link.origin[order])
+        return _DEGREES * link.turn[order]
 
     @cached_property
     def response(self) -> PeriodicResponse:
