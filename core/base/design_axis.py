@@ -37,6 +37,13 @@ class Findings:
     warns: Mask
     unit: str
 
+    @classmethod
+    def alike(cls, check: Check, count: int) -> Findings:
+        """The finding of a check that all designs share."""
+        value, limit = (np.full(count, each, dtype=float) for each in (check.value, check.limit))
+        fails, warns = (np.full(count, check.status == status) for status in ("fail", "warn"))
+        return cls(check.code, value, limit, fails, warns, check.unit)
+
 
 @dataclass(frozen=True, slots=True)
 class Evaluated:

@@ -508,7 +508,7 @@ class PlanarSamples:
         largest, no = design.structure.largest, np.zeros(many.count, dtype=bool)
         limit = np.full(many.count, 1e-9 * largest)
         findings.append(Findings(CLOSURE.code, many.gap, limit, many.gap > limit, no, "mm"))
-        findings += [_alike(check, many.count) for check in self._unchanged]
+        findings += [Findings.alike(check, many.count) for check in self._unchanged]
         return Evaluated(quantities, findings, np.zeros(many.count, dtype=np.intp), (), many.unsure)
 
     @cached_property
@@ -537,14 +537,6 @@ class PlanarSamples:
                 off[k] = np.where(many.unsure | open_ones, math.nan, value - nominal[k])
             rows.append(off)
         return np.concatenate(rows, axis=1)
-
-
-def _alike(check: Check, count: int) -> Findings:
-    """A finding that all samples have."""
-    value, limit, fails, warns = (
-        np.full(count, each) for each in (check.value, check.limit, check.status == "fail", check.status == "warn")
-    )
-    return Findings(check.code, value, limit, fails, warns, check.unit)
 
 
 class _AngleOfFace(NamedTuple):

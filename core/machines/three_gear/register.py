@@ -18,7 +18,6 @@ from gearlink.core.base.design_axis import Evaluated, Findings, Single, as_array
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.nomenclature import term
-from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.torsion import torsional_stiffness
@@ -239,14 +238,14 @@ class ThreeGearSamples:
             yield window_judged(reached, nominal.spec.dwell_window).of(samples.count)
         for name in self._checks:
             if name not in own and name not in MESH_CHECKS:
-                yield from (_same(check, samples.count) for check in nominal.check(name))
+                yield from (Findings.alike(check, samples.count) for check in nominal.check(name))
 
     def _of_meshes(self, samples: DriveSamples, exists: Mask) -> Iterator[Findings]:
         """What is judged of the teeth at the centre distances as made; a mesh that cannot be takes its drive away."""
         (_, b, c, _), made = self._lengths, samples.lengths[1:3]
         if all((length == nominal).all() for length, nominal in zip(made, (b, c), strict=True)):
             checks = (check for name in self._mesh_checks for check in self.nominal.check(name))
-            yield from (_same(check, samples.count) for check in checks)
+            yield from (Findings.alike(check, samples.count) for check in checks)
             return
         yield from self._meshes.findings(made, exists)
 
@@ -264,15 +263,6 @@ class ThreeGearSamples:
         gap = np.maximum.reduce(gaps(pair.one, pair.other, *samples.distances()[ends]))
         limit = self.nominal.layout.least_shaft * len(pair.bare)
         return shaft_judged(gap, limit, bool(pair.bare)).of(samples.count)
-
-
-def _same(check: Check, count: int) -> Findings:
-    """A finding that no tolerance of these changes."""
-    fails, warns = np.full(count, check.status == "fail"), np.full(count, check.status == "warn")
-    value = np.full(count, math.nan if check.value is None else check.value)
-    return Findings(
-        check.code, value, np.full(count, math.nan if check.limit is None else check.limit), fails, warns, check.unit
-    )
 
 
 class MeshStates:
