@@ -444,7 +444,7 @@ class GearPair(PitchPair):
         return min(self.interference_margin) > 0.0
 
     def min_shift_of(self, gear: int) -> float:
-        """x_min of an external gear [module]: its tool's straight flank ends on the base tangent point."""
+        """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends."""
         height = self._straight_height(gear)
         return teeth.min_shift_no_undercut(self.teeth[gear], self.pressure_angle, height, self.helix_angle, self.fn)
 
@@ -455,12 +455,8 @@ class GearPair(PitchPair):
 
     def _straight_height(self, gear: int) -> float:
         """How far the straight flank of a gear's tool reaches below its datum line [module]."""
-        from gearlink.core.parts.gears.tooth.tools import standard_straight_end
-
         tool = self.tools[gear]
-        if tool is None:
-            return standard_straight_end(self.pressure_angle, self.addendum, self.clearance, self.fn)
-        return tool.straight_end(self.pressure_angle)
+        return self.addendum if tool is None else tool.straight_end(self.pressure_angle)
 
     @cached_property
     def min_shift_no_undercut(self) -> tuple[float, float | None]:

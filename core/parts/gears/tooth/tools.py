@@ -110,21 +110,6 @@ def standard_tool(pressure_angle: float, addendum: float, clearance: float, f: G
     return RackTool(addendum=depth, rounding=f.least(clearance / (1.0 - f.sin(pressure_angle)), most))
 
 
-def standard_straight_end(
-    pressure_angle: float, addendum: float, clearance: float, f: GearFunctions = SCALARS
-) -> float:
-    """How far below its datum line the straight flank of the `standard_tool` reaches [module].
-
-    h_a*, to the last digit; deeper where the clearance is too large for a full round
-
-    Example
-        >>> [round(standard_straight_end(math.radians(20.0), 1.0, c), 6) for c in (0.25, 0.4)]
-        [1.0, 1.140795]
-    """
-    most = f.greatest(0.0, full_rounding(pressure_angle, addendum + clearance, f=f))
-    return addendum + f.greatest(0.0, clearance - most * (1.0 - f.sin(pressure_angle)))
-
-
 @lru_cache(maxsize=64)
 def tool_of_profile(pressure_angle: float, addendum: float, clearance: float) -> RackTool:
     """`standard_tool`, kept for the thousands of pairs of a contour that differ in their shifts alone.
