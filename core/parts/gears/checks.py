@@ -299,7 +299,8 @@ def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear.measured(UNDERCUT.name, limits)
     x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
     teeth = gear.pair.teeth[gear.place]
-    remedy = "use more teeth, or a larger pressure angle"
+    enough = math.ceil(gear.pair.min_teeth_of(gear.place) - 1e-9)
+    remedy = f"use at least {enough} teeth, or a larger pressure angle"
     if gear.shifts:
         remedy = f"raise its profile shift to {safely_above(least)}, or use more teeth"
     shown = Shown(x, least - (limits.undercut if found.status == "pass" else 0.0))

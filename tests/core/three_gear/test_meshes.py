@@ -7,6 +7,7 @@ Tolerances
 """
 
 import math
+import re
 from itertools import pairwise
 
 import pytest
@@ -185,3 +186,21 @@ def test_tolerances_know_spur_gears_whose_shifts_cancel(keys):
     with pytest.raises(NoSolution) as refusal:
         ThreeGearSamples(drive(**keys))
     assert refusal.value.key == f"gears.{next(iter(keys))}"
+
+
+@pytest.mark.parametrize("angle", [14.5, 20.0, 25.0])
+def test_the_teeth_that_the_fix_names_are_the_fewest_without_undercut(angle):
+    def found(teeth):
+        made = design(
+            {
+                "kind": "three-gear-four-bar",
+                "gears": {"module": 2, "crank": teeth, "idler": 40, "output": 60, "pressure_angle": angle},
+                "links": {"crank": 18.0, "frame": 110.0},
+            },
+            command="analyze",
+        )
+        return made.check("undercut")[0]
+
+    named = int(re.search(r"use at least (\d+) teeth", found(9).fix)[1])
+    assert found(named - 1).status == "warn"
+    assert found(named).status == "pass"
