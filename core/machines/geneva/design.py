@@ -199,6 +199,8 @@ def errors(design: GenevaDrive, _mechanism: Mechanism) -> Movable:
 
 _INSTANTS, _PLACES = 721, 33
 _EDGE_INSTANTS = 20001
+_CLOSER = 6
+"""So often the grid over instants and places closes in on the deepest point, to a sixteenth of its cells and more."""
 _INSIDE = 1e-9
 """Share of the locking radius by which a point of the wheel has to lie inside the disc to count."""
 
@@ -353,15 +355,17 @@ class Outlines:
         """
         drive, end = self.drive, self.edge
         usual = (drive.distance - drive.wheel) * self.locking / drive.crank if drive.sign > 0.0 else end.real
-        near = self._passing
-        near = near[np.abs(near) < self.locking * (1.0 - _INSIDE)]
-        if drive.sign > 0.0:  # what lies beyond the edges is the overlap
-            near = near[np.abs(np.angle(near)) < drive.half - _INSIDE]
-        if near.size == 0:
-            return usual
-        # arcs over a chord are the places of equal angle at which it is seen
-        seen = np.angle((end - near) / (end.conjugate() - near)) % TURN
-        return min(usual, float(np.min(end.real - end.imag / np.tan(0.5 * seen))))
+
+        def rise(near: Points) -> Reals:
+            """How far the arc over the edges that passes a point of the wheel stands before the usual one."""
+            within = np.abs(near) < self.locking * (1.0 - _INSIDE)
+            if drive.sign > 0.0:  # what lies beyond the edges is the overlap
+                within &= np.abs(np.angle(near)) < drive.half - _INSIDE
+            # arcs over a chord are the places of equal angle at which it is seen
+            seen = np.angle((end - near) / (end.conjugate() - near)) % TURN
+            return np.where(within, usual - end.real + end.imag / np.tan(0.5 * seen), 0.0)
+
+        return usual - max(0.0, self._deepest(rise))
 
     @property
     def overlap(self) -> float:
@@ -371,27 +375,45 @@ class Outlines:
         beyond the circle through the corners, out of its slots and of its locking arcs.
         """
         drive = self.drive
-        if drive.sign < 0.0:
-            f = np.linspace(-drive.half, drive.half, _EDGE_INSTANTS)
-            seen = (drive.distance + self.edge * units(f)) * units(-drive.rates(f, 0)[0])
-            seen = np.abs(seen) * units(np.abs(np.angle(seen * units(-_pitches(seen, drive.step)))))
-            from_arc = np.abs(seen - cmath.rect(drive.distance, 0.5 * drive.step)) - self.hollow
-            depth = np.minimum(np.minimum(np.abs(seen) - self.tip, seen.imag - self.slot), from_arc)
-            return float(np.max(depth - _INSIDE * self.locking, initial=0.0))
-        near = self._passing
-        into = self.locking * (1.0 - _INSIDE) - np.abs(near)
-        beyond = np.abs(near) * (np.abs(np.angle(near)) - drive.half)
-        return float(np.max(np.minimum(into, beyond), initial=0.0))
 
-    @cached_property
-    def _passing(self) -> Points:
-        """Points of the lips beside a slot while its pin drives them, seen from the crank, the pin on the x axis."""
+        def depth(near: Points) -> Reals:
+            if drive.sign > 0.0:
+                into = self.locking * (1.0 - _INSIDE) - np.abs(near)
+                return np.asarray(np.minimum(into, np.abs(near) * (np.abs(np.angle(near)) - drive.half)))
+            near = np.abs(near) * units(np.abs(np.angle(near * units(-_pitches(near, drive.step)))))
+            from_arc = np.abs(near - cmath.rect(drive.distance, 0.5 * drive.step)) - self.hollow
+            into = np.minimum(np.minimum(np.abs(near) - self.tip, near.imag - self.slot), from_arc)
+            return np.asarray(into - _INSIDE * self.locking)
+
+        return max(0.0, self._deepest(depth, edge=drive.sign < 0.0))
+
+    def _deepest(self, depth: Callable[[Points], Reals], *, edge: bool = False) -> float:
+        """The greatest of a depth over the instants at which a pin drives the wheel, and over the places of a lip.
+
+        Parameters
+            depth : of points seen from the crank, the pin on the x axis; alike for both lips, which are mirror images
+            edge : of the edge of the disc instead, seen from the wheel, a slot on the x axis
+        """
+        f = np.linspace(-self.drive.half, self.drive.half, _EDGE_INSTANTS if edge else _INSTANTS)
+        corner, middle = math.asin(self.slot / self.tip), math.pi / self.drive.slots - self._arc_half
+        lip = np.zeros(1) if edge else np.linspace(corner, middle, _PLACES)
+        best = -math.inf
+        for _ in range(_CLOSER):
+            found = depth(self._edge_in_wheel(f[:, None]) if edge else self._lip(f[:, None], lip))
+            i, j = divmod(int(np.argmax(found)), lip.size)
+            best = max(best, float(found[i, j]))
+            f = np.linspace(f[max(i - 1, 0)], f[min(i + 1, f.size - 1)], _PLACES)
+            if not edge:
+                lip = np.linspace(lip[max(j - 1, 0)], lip[min(j + 1, lip.size - 1)], _PLACES)
+        return best
+
+    def _lip(self, f: Reals, lip: Reals) -> Points:
         drive, s = self.drive, self.drive.sign
-        f = np.linspace(-drive.half, drive.half, _INSTANTS)[:, None]
-        lip = np.linspace(math.asin(self.slot / self.tip), math.pi / drive.slots - self._arc_half, _PLACES)
-        lips = self.tip * units(np.concatenate([lip, -lip]))
         turn = (math.pi if s > 0.0 else 0.0) - s * drive.rates(f, 0)[0]
-        return np.asarray(((s * drive.distance + lips * units(turn)) * units(-f)).ravel())
+        return np.asarray((s * drive.distance + self.tip * units(lip) * units(turn)) * units(-f))
+
+    def _edge_in_wheel(self, f: Reals) -> Points:
+        return np.asarray((self.drive.distance + self.edge * units(f)) * units(-self.drive.rates(f, 0)[0]))
 
 
 def _pitches(seen: Points, pitch: float) -> Reals:
