@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.core.machines.planar.outputs import moved, point_output, transmission
 from gearlink.core.machines.planar.structure import Driven, GearJoint, Line, LineJoint, PinJoint, RackJoint, Structure
-from gearlink.core.mechanism.dual import Shift, elements_at
+from gearlink.core.mechanism.dual import Shift
 from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
@@ -154,13 +154,10 @@ class _Places:
 _AXES = (1.0 + 0j, 1j)
 
 
-def errors(design: PlanarMechanism, mechanism: Mechanism) -> Movable:
+def errors(design: PlanarMechanism, _mechanism: Mechanism) -> Movable:
     """Numbers of frame, links, lines of slides and slots; rollers and profiles of cams; gears; the output's point."""
     structure = design.structure
-    sizes = {
-        key: (Shift(body, _elements(structure, mechanism, body, point), way),)
-        for key, body, point, way in _sizes(structure)
-    }
+    sizes = {key: (Shift(body, _elements(structure, body, point), way),) for key, body, point, way in _sizes(structure)}
     sizes = {key: shifts for key, shifts in sizes.items() if shifts[0].joints}
     for group in (structure.slides, structure.slots):
         for name, joint in group.items():
@@ -188,17 +185,28 @@ def _sizes(structure: Structure) -> Iterator[tuple[str, str, str, complex]]:
             yield from ((f"{group}.{point}[{k}]", body, point, way) for k, way in enumerate(_AXES))
 
 
-def _elements(structure: Structure, mechanism: Mechanism, body: str, point: str) -> tuple[str, ...]:
-    """Joints whose element on a body stands at a point of it."""
-    place, number = structure.bodies[body][point], structure.numbers[body]
-    lines = [
+def _elements(structure: Structure, body: str, point: str) -> tuple[str, ...]:
+    """Joints whose element on a body stands at a point of it, by its name: another point may lie at the same place."""
+    spec = structure.spec
+    holder, *others = (name for name, points in structure.bodies.items() if point in points)
+    pins = [point if k == 0 else f"{point}_{other}" for k, other in enumerate(others) if body in (holder, other)]
+    gears = [
         name
-        for group in (structure.slides, structure.slots)
-        for name, joint in group.items()
-        if joint.line.other == number and abs(joint.line.point - place) <= 1e-9 * structure.size
+        for name, mesh in spec.meshes.items()
+        if mesh.gears is not None and (body, point) in zip(mesh.gears, mesh.at, strict=True)
     ]
-    cams = (name for name, cam in structure.cams.items() if (cam.follower, cam.point) == (number, place))
-    return (*elements_at(mechanism, body, place), *lines, *cams)
+    slides = [
+        name
+        for name, slide in spec.slides.items()
+        if slide.link == body and (slide.point or next(iter(structure.bodies[body]))) == point
+    ]
+    slots = [
+        name
+        for name, slot in spec.slots.items()
+        if slot.point == point and structure.names[structure.slots[name].line.other] == body
+    ]
+    cams = [name for name, cam in spec.cams.items() if (cam.follower, cam.point) == (body, point)]
+    return (*pins, *gears, *slides, *slots, *cams)
 
 
 def _gears(structure: Structure, name: str) -> Iterator[tuple[str, Turned]]:

@@ -157,6 +157,22 @@ def test_an_output_that_is_a_pin_moves_on_its_link_and_with_the_chain() -> None:
     assert made.sampled_errors(phi, 1, error)[:, 0] == pytest.approx(1e-4 * one.gain, abs=2e-9)
 
 
+def test_a_point_at_the_place_of_a_pin_is_not_the_pin() -> None:
+    """M lies where C does: its own error moves M alone, on its link, and the links behind C not at all."""
+    phi = np.array([0.4, 1.7, 4.0])
+    tolerance = {"sources": {"links.coupler.M[1]": SIZE}}
+    made = factory.design("planar_five_bar", command="register", tolerance=tolerance)
+    (gain,) = (one.gain for one in made.contributions(phi, 1) if one.source == "links.coupler.M[1]")
+    turned = made.motion.make(phi, 0, 1).links["coupler"].turn.value
+    assert gain == pytest.approx(-np.sin(turned), abs=1e-12)
+    other = {"output": "C"}
+    shown = factory.design(
+        "planar_five_bar", command="register", tolerance=tolerance, register=other, outputs=["M", "C"]
+    )
+    with pytest.raises(NoSolution, match=r"links\.coupler\.M\[1\] is no source of the register"):
+        _ = shown.contributions(phi, 1)
+
+
 def test_a_gear_pair_in_closed_form() -> None:
     """Both runouts are transmitted along the line of action, once per revolution; the backlash is a lag."""
     made = register("gear_pair")
