@@ -43,7 +43,9 @@ UNITS: dict[str, dict[str, Fraction]] = {
     | {"1/s": _f("60"), "Hz": _f("60"), "rad/s": 30 / _PI, "deg/s": _f("1/6")}
     | dict.fromkeys(_HOURLY, _f("1/60"))
     | dict.fromkeys(_MINUTELY, _f("1")),
-    "sheets/h": dict.fromkeys(_HOURLY, _f("1")) | dict.fromkeys((*_REVS, *_MINUTELY), _f("60")),
+    "sheets/h": dict.fromkeys(_HOURLY, _f("1"))
+    | dict.fromkeys((*_REVS, *_MINUTELY), _f("60"))
+    | dict.fromkeys(("1/s", "Hz"), _f("3600")),
     "N": {"N": _f("1"), "kN": _f("1000"), "lbf": _LBF, "kgf": _GRAVITY},
     "N m": {"Nm": _f("1"), "kNm": _f("1000"), "Nmm": _f("0.001"), "kgfm": _GRAVITY}
     | {"lbfin": _LBF * _INCH / 1000, "lbfft": _LBF * _FOOT / 1000},

@@ -34,6 +34,7 @@ def spec(text: str, kind: str = "slider-crank") -> Any:
         ("1 rad", "deg", "180/pi"), ("3 mrad", "deg", "0.54/pi"), ("30'", "deg", "0.5"), ("36 arcsec", "deg", "0.01"),
         ("2 Hz", "1/min", "120"), ("1 rad/s", "1/min", "30/pi"), ("90 deg/s", "1/min", "15"),
         ("8000 sheets/h", "1/min", "8000/mpf(60)"), ("100 sheets/min", "sheets/h", "6000"), ("2 1/h", "sheets/h", "2"),
+        ("1.25 1/s", "sheets/h", "4500"), ("2 Hz", "sheets/h", "7200"),
         ("4000 prints/h", "1/min", "4000/mpf(60)"), ("9000 impressions/h", "sheets/h", "9000"),
         ("70 strokes/min", "1/min", "70"), ("7200 iph", "1/min", "120"), ("90 cycles/min", "sheets/h", "5400"),
         ("8000 sph", "sheets/h", "8000"),
