@@ -45,9 +45,8 @@ def family(quick: bool) -> Family:
 
 
 def _methods(size: int) -> list[Method]:
-    phi, out = positions(size), np.empty((8, size))
+    phi = positions(size)
     methods = [
-        Method("closed form, unit vectors", size, lambda: fourbar_sweep.unit_vectors(LINKAGE, phi, 2, out)),
         Method("closed form, angles", size, lambda: fourbar_sweep.solve(LINKAGE, phi, 2)),
         Method("textbook acos", size, lambda: textbook(LINKAGE, phi)),
     ]

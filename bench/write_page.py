@@ -142,15 +142,15 @@ def goals(wide_vectors: bool) -> list[Goal]:
         for what in WAITS
         if not what.startswith("animate")
     ]
-    vectors = "closed form, unit vectors"
+    angles = "closed form, angles"
     return [
         Goal(
             "four-bar, 2 derivatives, N = 1e6, over a numpy pass",
             1.0 if wide_vectors else 1.5,
             "x",
-            _row("four-bar", vectors),
+            _row("four-bar", angles),
         ),
-        Goal("four-bar: error", 4.0, "eps", _row("four-bar", vectors, "error")),
+        Goal("four-bar: error", 4.0, "eps", _row("four-bar", angles, "error")),
         Goal("four-bar, N = 1, scalar", 5000.0, "ns", _row("four-bar", "closed form, scalar", "nanoseconds", 1)),
         Goal(
             "inverse involute, 1e5 values",
@@ -223,7 +223,7 @@ def peer_goals(peers: dict[str, Any]) -> list[Goal]:
     def over(method: str) -> Callable[[dict[str, Family]], float]:
         rows = [row for row in peers["rows"] if row["method"] == method]
         theirs = max(rows, key=lambda row: int(row["size"]))["ratio"]
-        return lambda found: _row("four-bar", "closed form, unit vectors")(found) / float(theirs)
+        return lambda found: _row("four-bar", "closed form, angles")(found) / float(theirs)
 
     return [
         Goal("four-bar over pylinkage (numba)", 1.0 / 30.0, "x", over("pylinkage (numba)")),
@@ -255,7 +255,7 @@ def peers_table(peers: dict[str, Any], found: dict[str, Family]) -> str:
             f"| {row['method']} | {row['size']} | {duration(row['nanoseconds'])} | {row['error']:.1g} "
             f"| {row['ratio']:.3g} |"
         )
-    own = found["four-bar"].row("closed form, unit vectors")
+    own = found["four-bar"].row("closed form, angles")
     assert own is not None
     lines += ["", f"gearlink at N = {own.size}: {duration(own.nanoseconds)}, {own.ratio:.2f} passes.", ""]
     starts = ", ".join(f"{name} {1e3 * seconds:.0f} ms" for name, seconds in peers["starts"].items())

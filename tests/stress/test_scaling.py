@@ -38,12 +38,6 @@ def four_bar(count: int) -> float:
     return max(fourbar_sweep.solve(LINKAGE, phi, 2).rocker_acceleration.max() for phi in turn_blocks(count))
 
 
-def unit_vectors(count: int) -> float:
-    """The same from unit vectors, into one array for all blocks."""
-    rows = np.empty((8, BLOCK))
-    return max(fourbar_sweep.unit_vectors(LINKAGE, phi, 2, rows[:, : phi.size])[7].max() for phi in turn_blocks(count))
-
-
 def three_gears(count: int) -> float:
     """Minimum speed ratio of a three-gear four-bar."""
     return min(output_motion(LINKAGE, TRAIN, phi).speed_ratio.min() for phi in turn_blocks(count))
@@ -59,7 +53,7 @@ def cam(count: int) -> float:
     return found
 
 
-SWEEPS: dict[str, Callable[[int], float]] = {f.__name__: f for f in (four_bar, unit_vectors, three_gears, cam)}
+SWEEPS: dict[str, Callable[[int], float]] = {f.__name__: f for f in (four_bar, three_gears, cam)}
 
 
 def seconds_per_position(sweep: Callable[[int], float], count: int) -> float:

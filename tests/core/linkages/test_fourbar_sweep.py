@@ -4,7 +4,7 @@ Tolerances, EPS = 2^-52, dev = min(gamma, pi - gamma):
 * against the scalar functions, whose sines and cosines are those of another library: 8 EPS/dev in angles, in rates
   twice the 8 EPS/dev^2 and 32 EPS/dev^2 of the largest one that test_fourbar grants each of the two; in jerks of the
   largest of their summands w^3 and 3 w a too;
-* unit vectors against mpmath: 4 EPS times the condition 1/dev (at least 1), rates as above;
+* directions against mpmath: 4 EPS times the condition 1/dev (at least 1) and the rounding of the angle, rates as above;
 * mirror and period: the same multiples.
 """
 
@@ -107,11 +107,17 @@ def test_inverse_of_a_drag_link_returns_the_crank_with_its_turns(assembly: int) 
 
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("linkage", LINKAGES)
-def test_unit_vectors_against_mpmath(linkage: FourBar) -> None:
+def test_directions_and_rates_against_mpmath(linkage: FourBar) -> None:
     phi = np.append(angles_of(linkage, 40), [0.0, 1e-8])
     if linkage.turns_fully():
         phi = np.append(phi, [math.pi, -math.pi, 3.0 * math.pi, math.pi - 1e-8, math.pi / 2])
-    rows = sweep.unit_vectors(linkage, phi, 2)
+    got = sweep.solve(linkage, phi, 2)
+    rows = np.array(
+        [
+            *(np.cos(got.coupler_angle), np.sin(got.coupler_angle), np.cos(got.rocker_angle), np.sin(got.rocker_angle)),
+            *(got.coupler_velocity, got.rocker_velocity, got.coupler_acceleration, got.rocker_acceleration),
+        ]
+    )
     a, b, c, d, s = (mp.mpf(x) for x in linkage.reading[:5])
     with mp.workdps(40):
         for i, x in enumerate(phi):
@@ -129,7 +135,8 @@ def test_unit_vectors_against_mpmath(linkage: FourBar) -> None:
             a_c = (a * mp.re(e_a * mp.conj(e_b)) + b * w_b**2 - c * w_c**2 * cos) / (c * sine)
             dev = min(1.0, float(gamma), float(mp.pi - gamma))
             for row, true in enumerate((e_b.real, e_b.imag, e_c.real, e_c.imag)):
-                assert abs(rows[row, i] - float(true)) <= 4 * EPS / dev
+                angle = abs((got.coupler_angle, got.rocker_angle)[row // 2][i])  # is rounded itself
+                assert abs(rows[row, i] - float(true)) <= 4 * EPS / dev + EPS * angle
             for pair, factor, row in (((w_b, w_c), 8, 4), ((a_b, a_c), 32, 6)):
                 limit = factor * EPS / dev**2 * max(1.0, *(abs(float(y)) for y in pair))
                 for k in (0, 1):
@@ -171,26 +178,20 @@ def test_the_loop_closes_for_any_linkage_that_does(lengths: tuple[float, ...], a
         return
     phi = np.linspace(-4.0, 4.0, 100)  # without 0, where B may fall on D
     phi = phi[assembles(linkage, phi)]
-    rows = sweep.unit_vectors(linkage, phi, 0)
     got = sweep.solve(linkage, phi)
     dev = np.maximum(np.minimum(got.transmission_angle, np.pi - got.transmission_angle), 1e-8)
-    for b_x, b_y, c_x, c_y in (
-        rows,
-        (
-            *(np.cos(got.coupler_angle), np.sin(got.coupler_angle)),
-            *(np.cos(got.rocker_angle), np.sin(got.rocker_angle)),
-        ),
-    ):
-        x = linkage.crank * np.cos(phi) + linkage.coupler * b_x - linkage.frame - linkage.rocker * c_x
-        y = linkage.crank * np.sin(phi) + linkage.coupler * b_y - linkage.rocker * c_y
-        assert np.all(np.hypot(x, y) <= 8 * EPS / dev * sum(lengths))
+    b_x, b_y = np.cos(got.coupler_angle), np.sin(got.coupler_angle)
+    c_x, c_y = np.cos(got.rocker_angle), np.sin(got.rocker_angle)
+    x = linkage.crank * np.cos(phi) + linkage.coupler * b_x - linkage.frame - linkage.rocker * c_x
+    y = linkage.crank * np.sin(phi) + linkage.coupler * b_y - linkage.rocker * c_y
+    assert np.all(np.hypot(x, y) <= 8 * EPS / dev * sum(lengths))
 
 
 def test_shapes_and_blocks() -> None:
     phi = np.linspace(0.0, 6.0, 2 * sweep.BLOCK + 77)
-    rows = sweep.unit_vectors(CRANK_ROCKER, phi, 3)
+    rows = np.array(list(sweep.solve(CRANK_ROCKER, phi, 3)))
     for i in (0, sweep.BLOCK - 1, sweep.BLOCK, 2 * sweep.BLOCK + 76):
-        alone = sweep.unit_vectors(CRANK_ROCKER, phi[i : i + 1], 3)[:, 0]
+        alone = np.array(list(sweep.solve(CRANK_ROCKER, phi[i : i + 1], 3)))[:, 0]
         assert rows[:, i] == pytest.approx(alone, rel=16 * EPS)
     grid = phi[:24].reshape(2, 3, 4)
     got = sweep.solve(CRANK_ROCKER, grid.transpose(), 1)
@@ -202,14 +203,10 @@ def test_shapes_and_blocks() -> None:
     assert sweep.solve(CRANK_ROCKER, [[1.0], [2.0]], 1, velocity=[1.0, 2.0, 3.0]).rocker_velocity.shape == (2, 3)
 
 
-def test_output_rows_are_reused() -> None:
-    phi, out = np.linspace(0.0, 6.0, 100), np.empty((8, 100))
-    assert sweep.unit_vectors(CRANK_ROCKER, phi, 2, out) is out
-    assert np.array_equal(out, sweep.unit_vectors(CRANK_ROCKER, phi, 2))
-    with pytest.raises(ValueError, match=r"\(8, 100\); it must be \(10, 100\)"):
-        sweep.unit_vectors(CRANK_ROCKER, phi, 3, out)
-    with pytest.raises(ValueError, match="order is -1"):
-        sweep.solve(CRANK_ROCKER, phi, -1)
+def test_the_order_of_the_rates_is_zero_to_three() -> None:
+    for order in (-1, 4):
+        with pytest.raises(ValueError, match=f"order is {order}"):
+            sweep.solve(CRANK_ROCKER, 0.0, order)
 
 
 def test_refusal_names_the_first_angle_that_does_not_close() -> None:

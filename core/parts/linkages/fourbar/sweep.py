@@ -15,7 +15,6 @@ in the two unknowns theta_b (coupler) and theta_c (rocker), in the frame of `pos
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -100,31 +99,6 @@ def solve_inverse(
     return FourBarInverseState(crank, coupler, transmission, *rates)
 
 
-def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Reals | None = None) -> Reals:
-    """Directions of coupler and rocker as unit vectors, and rates, without any angle: the raw kernel.
-
-    Parameters
-        crank_angle : (N,) array [rad]
-        order : 0..3 - highest derivative with respect to the crank angle
-        out : (4 + 2 order, N) array - filled and returned when given
-    Returns
-        rows : (4 + 2 order, N) array - coupler x, y, rocker x, y; then for each order the pair coupler, rocker
-    Raises
-        NoSolution - as `solve`
-    Notes
-        With second derivatives it takes about the time of one pass of sine, cosine, arc tangent and root over
-        the same array. Blocks of `BLOCK` positions keep the intermediate rows in the cache.
-    Example
-        >>> rows = unit_vectors(FourBar(18.0, 50.0, 100.0, 121.4), np.array([0.0]), order=1)
-        >>> np.round(rows[:, 0], 9).tolist()
-        [0.308661509, 0.951171947, -0.879669246, 0.475585974, -0.174081238, -0.174081238]
-
-    Source
-        own derivation, see `gearlink.core.parts.linkages.fourbar.loop`
-    """
-    return _sweep(linkage.reading, crank_angle, order, _write_vectors, out)
-
-
 def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
     """Distance of the transmission angle from a dead centre, min(gamma, pi - gamma) [rad].
 
@@ -170,26 +144,21 @@ def _angles(reading: Reading, driving: ArrayLike, order: int) -> list[Reals]:
     if columns:
         angle = np.broadcast_to(angle, (columns[0], angle.shape[-1]))
     phi = np.ascontiguousarray(angle)
-    rows = _sweep(reading, phi if columns else phi.ravel(), order, _write_angles, None)
+    rows = _sweep(reading, phi if columns else phi.ravel(), order)
     return [row.reshape(angle.shape) for row in rows]
 
 
 Scratch = tuple[Reals, ...]
-Writer = Callable[[Reading, Reals, Scratch, Reals], int]
 
 
-def _sweep(reading: Reading, phi: Reals, order: int, write: Writer, out: Reals | None) -> Reals:
-    """Fill position rows by `write` and then the pairs of rates, block by block.
+def _sweep(reading: Reading, phi: Reals, order: int) -> Reals:
+    """Rows of the angles and then the pairs of rates, block by block.
 
     Where constants are columns phi has rows, of which a block holds some.
     """
     if not 0 <= order <= 3:
         raise ValueError(f"order is {order}; the rates go from 0 to 3")
-    shape = ((4 if write is _write_vectors else 3) + 2 * order, *phi.shape)
-    if out is None:
-        out = np.empty(shape)
-    elif out.shape != shape:
-        raise ValueError(f"out has the shape {out.shape}; it must be {shape}")
+    out = np.empty((3 + 2 * order, *phi.shape))
     size = BLOCK if phi.ndim == 1 else max(1, BLOCK // max(1, phi.shape[1]))
     scratch = np.empty((11, min(len(phi), size), *phi.shape[1:]))
     with np.errstate(invalid="ignore"):
@@ -199,9 +168,9 @@ def _sweep(reading: Reading, phi: Reals, order: int, write: Writer, out: Reals |
             own = reading if phi.ndim == 1 else _of_some(reading, some)
             rows = tuple(scratch[:, : len(angle)])
             _triangle(own, angle, order, rows)
-            done = write(own, angle, rows, block)
+            _write_angles(own, angle, rows, block)
             if order > 0:
-                _rates(own, rows, block[done:])
+                _rates(own, rows, block[3:])
     return out
 
 
@@ -246,7 +215,7 @@ def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Rea
         raise refusal(reading, float(phi[i]), float(p[i]), float(q[i]))
 
 
-def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> int:
+def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> None:
     """Coupler, rocker and transmission angle, continuous as in `loop.solve_loop`.
 
     Of many linkages all have a driving link that is longer than the frame, or none has, and are read the same way.
@@ -271,7 +240,6 @@ def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> in
         np.multiply(out[i], s, out=out[i])
         np.add(out[i], nu, out=out[i])
         np.add(out[i], winding, out=out[i])
-    return 3
 
 
 def _arg(sine: float, at_0: float, at_pi: float, t: Reals, tt: Reals, scratch: Reals, out: Reals) -> None:
@@ -279,35 +247,6 @@ def _arg(sine: float, at_0: float, at_pi: float, t: Reals, tt: Reals, scratch: R
     _linear(at_0, at_pi, tt, scratch)
     np.multiply(t, sine, out=out)
     np.arctan2(out, scratch, out=out)
-
-
-def _write_vectors(reading: Reading, _phi: Reals, rows: Scratch, out: Reals) -> int:
-    """Unit vectors (V/b)(h + i s R/(2 n^2)) and (V/c)(h - 1 + i s R/(2 n^2)), h = 1/2 + (b^2 - c^2)/(2 n^2)."""
-    t, tt, one, n, r, _, x, y, h, k, v = rows
-    a, b, c, d, s = reading[:5]
-    np.divide(1.0, one, out=v)
-    _linear(d - a, d + a, tt, x)
-    np.multiply(x, v, out=x)
-    np.multiply(t, v, out=y)
-    np.multiply(y, -2.0 * a, out=y)
-    np.divide(0.5, n, out=v)
-    np.multiply(one, v, out=h)
-    np.multiply(h, reading.e, out=h)
-    np.add(h, 0.5, out=h)
-    np.multiply(r, v, out=k)
-    np.multiply(k, float(s), out=k)
-    np.multiply(y, k, out=v)
-    np.multiply(x, k, out=k)
-    for length, row in ((b, 0), (c, 2)):
-        np.multiply(x, h, out=out[row])
-        np.subtract(out[row], v, out=out[row])
-        np.multiply(out[row], 1.0 / length, out=out[row])
-        np.multiply(y, h, out=out[row + 1])
-        np.add(out[row + 1], k, out=out[row + 1])
-        np.multiply(out[row + 1], 1.0 / length, out=out[row + 1])
-        if row == 0:
-            np.subtract(h, 1.0, out=h)
-    return 4
 
 
 def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
