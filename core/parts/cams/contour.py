@@ -583,6 +583,28 @@ class Rocker(NamedTuple):
 
 
 def _on_rocker(found: Contour, reach: float, rocker: Rocker) -> _Course:
+    course = _rocked(found, reach, rocker)
+    jam = _jam(course)
+    if jam is not None:
+        raise NoSolution(
+            f"the pressure angle reaches 90 deg between the cam angles {jam} deg: the follower jams",
+            key="profile",
+            fix=_freed(found, reach, rocker),
+        )
+    return course
+
+
+def _freed(found: Contour, reach: float, rocker: Rocker) -> str:
+    """The nearest distance of the pivot, in steps of a hundredth, at which a rocker does not jam."""
+    for change in (0.01 * step * way for step in range(1, 100) for way in (1, -1)):
+        other = rocker._replace(distance=float(short(rocker.distance * (1.0 + change))))
+        with suppress(NoSolution):
+            if _jam(_rocked(found, reach, other)) is None:
+                return f"set follower.center_distance to {other.distance:g} mm"
+    return "change follower.center_distance and follower.arm"
+
+
+def _rocked(found: Contour, reach: float, rocker: Rocker) -> _Course:
     whole, prime, size = found.whole, found.base + reach, found.distance + found.nose + reach
     rocker.require_reach(prime, size)
     start, side = -rocker.side * rocker.ahead(prime), rocker.side
@@ -595,9 +617,7 @@ def _on_rocker(found: Contour, reach: float, rocker: Rocker) -> _Course:
     behind = nose._replace(center=_behind(found, 0.0))
     (apex, top), low = passed(size, found.ascent), rocker.angle(prime)
     if found.flank is None:
-        course = _Course((0.0, apex, apex, whole, whole), (low, low, top), (nose, nose, nose, nose))
-        _require_free(course)
-        return course
+        return _Course((0.0, apex, apex, whole, whole), (low, low, top), (nose, nose, nose, nose))
     meeting = found.nose_center + (found.nose + reach) * found.joint_normal
     (rise, middle), (fall, _) = (
         passed(abs(meeting), direction) for direction in (cmath.phase(meeting), whole - cmath.phase(meeting))
@@ -607,13 +627,11 @@ def _on_rocker(found: Contour, reach: float, rocker: Rocker) -> _Course:
     if not math.isinf(found.flank):
         flank = _OnArc(found.flank_center, found.flank + reach, rocker, start)
         back = flank._replace(center=_beyond(found, 0.0))
-    course = _Course((rise, apex, apex + found.dwell, fall, whole), (low, middle, top), (flank, nose, behind, back))
-    _require_free(course)
-    return course
+    return _Course((rise, apex, apex + found.dwell, fall, whole), (low, middle, top), (flank, nose, behind, back))
 
 
-def _require_free(course: _Course) -> None:
-    """Refuse a rocker that jams: its arm, at some angle, along the normal of the profile or beyond its reach."""
+def _jam(course: _Course) -> str | None:
+    """The cam angles between which a rocker jams: its arm along the normal of the profile, or beyond its reach."""
     (start, middle, top), ends = course.heights, (0.0, *course.ends)
     stretches = zip(
         course.arcs,
@@ -629,12 +647,8 @@ def _require_free(course: _Course) -> None:
         free = high > low and bool(np.abs(arc.cosine(np.array([low, *inside, high]))).max() < 1.0 - _JAMS)
         # Where the centre comes to an end on the other side of the normal, the cam has turned back meanwhile.
         if not free or np.abs(arc.height(np.array([low, high]), 0)[0] - heights).max() > _OTHER_SIDE:
-            between = " and ".join(short(math.degrees(end)) for end in sorted((low, high)))
-            raise NoSolution(
-                f"the pressure angle reaches 90 deg between the cam angles {between} deg: the follower jams",
-                key="profile",
-                fix="change follower.center_distance or follower.arm",
-            )
+            return " and ".join(short(math.degrees(end)) for end in sorted((low, high)))
+    return None
 
 
 def arcs_table(found: Contour, motion: FollowerMotion, speed: float | None, *, oscillates: bool = False) -> Table:

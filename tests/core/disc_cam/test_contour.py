@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import random
+import re
 from typing import Any
 
 import factory
@@ -440,11 +441,19 @@ def test_a_follower_jams_where_its_pressure_angle_reaches_90_deg() -> None:
     ],
 )
 def test_a_rocker_that_jams_is_refused(found: Contour, reach: float, rocker: Rocker) -> None:
-    """With the pivot close to the cam, of an arm that reaches across it: its normal passes the pivot."""
+    """With the pivot close to the cam, of an arm that reaches across it: its normal passes the pivot. At the distance
+    that the fix names it does not, at the one a hundredth nearer it still does."""
     with pytest.raises(
         NoSolution, match=r"reaches 90 deg between the cam angles [0-9.]+ and [0-9.]+ deg: the follower jams"
-    ):
+    ) as told:
         contour_motion(found, reach, rocker)
+    named = re.fullmatch(r"set follower\.center_distance to ([0-9.]+) mm", str(told.value.fix))
+    assert named is not None
+    distance = float(named[1])
+    contour_motion(found, reach, rocker._replace(distance=distance))
+    back = 0.012 * rocker.distance * (1.0 if distance < rocker.distance else -1.0)
+    with pytest.raises(NoSolution):
+        contour_motion(found, reach, rocker._replace(distance=distance + back))
 
 
 def test_a_rocker_that_does_not_reach_the_cam_is_refused() -> None:
