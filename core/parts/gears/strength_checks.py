@@ -197,6 +197,9 @@ def _outside(rated: Rated) -> Iterator[str]:
     given, name = rated.conditions, rated.data.called
     if "material" not in given.given:
         yield f"no material given: assumed {' and '.join(dict.fromkeys(steel.of for steel in rated.steels))}"
+    if given.planets > 1 and "contacts" not in given.given:
+        several = "sun" if given.system == "sun-planet" else "ring"
+        yield f"one load contact per revolution, the {several} meets {given.planets} planets (give rating.contacts)"
     for gear, steel in enumerate(rated.steels):
         low, high = steel.kind.range_of(given.quality)
         unit = "HBW" if steel.kind.brinell else "HV"

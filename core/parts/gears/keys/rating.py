@@ -172,7 +172,9 @@ class RatingSpec(Spec):
     reduced_mass: Annotated[float, unit("kg/mm", gt=0, le=1e9)] | None = Field(
         None, description="m_red, instead of the one of system and bore"
     )
-    contacts: Contacts | TwoContacts = Field(1.0, description="load contacts of a tooth per revolution")
+    contacts: Contacts | TwoContacts = Field(
+        1.0, description="load contacts of a tooth per revolution; a sun has as many as planets, a ring too"
+    )
     face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; default: none")
     long_life: Annotated[float, unit("1", ge=0.85, le=1)] = Field(
         0.85, description="life factor at 1e10 load cycles; 1 only for best material and experience"

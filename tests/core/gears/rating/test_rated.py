@@ -516,6 +516,11 @@ def test_what_is_met_by_a_report_alone_needs_no_warning() -> None:
         load={"factors": {"face_contact": 1.2, "dynamic": 1.05, "transverse_contact": 1.1, "transverse_bending": 1.1}},
     )
     assert statuses(quiet, "rating-range") == ["pass"]
+    planets = {"system": "sun-planet", "planets": 3}
+    (several,) = rated(rating=planets).check("rating-range")
+    assert "the sun meets 3 planets (give rating.contacts)" in " ".join(several.note)
+    (given,) = rated(rating=planets | {"contacts": [3, 1]}).check("rating-range")
+    assert "planets" not in " ".join(given.note)
     (hard,) = rated(rating={"hardness": 500}).check("rating-range")
     assert hard.status == "warn"
     assert "hardness 500 HV of gear 1, through-hardened MQ has 200 to 360" in hard.note[0]
