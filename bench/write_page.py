@@ -41,12 +41,14 @@ _REASONS = """## Where a goal is missed, and why
 * **Small arrays.** A numpy call costs 0.3 to 1 us for any size, and the sweep of a four-bar makes about seventy. Up to
   some hundred positions the scalar kernel is faster; the program uses it for single positions (2 to 3 us).
 * **Times in ns and ms** are goals for an idle machine with AVX-512, on which numpy evaluates sine, cosine, arc tangent
-  and square root for eight numbers at a time. Such a machine reached 0.98 passes for the four-bar, 0.031 of the time of
-  pylinkage, 8.7 ns for the inverse involute, 19 ns for the frame, 2.7 ms for the press and 1.43 passes for the cam
-  profile. Without AVX-512 these functions take three to five times as long; code that numba compiles does not slow down
-  as much. Compare the ratios to the numpy pass.
-* **numba** is not used. The kernel of the four-bar with two derivatives as one compiled loop (numba 0.68, AVX-512,
-  N = 1e6, processor time in one process) takes 0.90 of the time of the numpy blocks, and 0.60 with `fastmath`, which
+  and square root for eight numbers at a time. Such a machine reached 8.7 ns for the inverse involute, 19 ns for the
+  frame, 2.7 ms for the press and 1.43 passes for the cam profile. Without AVX-512 these functions take three to five
+  times as long; code that numba compiles does not slow down as much. Compare the ratios to the numpy pass.
+* **Four-bar.** Angles that are continuous over the revolutions take four arc tangents, a pass has one. Directions
+  as unit vectors without any angle took 0.93 passes and 0.048 of the time of pylinkage; nothing in the program is
+  content with them, so that this form is not kept.
+* **numba** is not used. The four-bar's unit vectors with two derivatives as one compiled loop (numba 0.68, AVX-512,
+  N = 1e6, processor time in one process) took 0.90 of the time of the numpy blocks, and 0.60 with `fastmath`, which
   allows other rounding and removes the tests for NaN. It costs 0.2 s of import and 0.4 s of compilation in each
   process: the time that 150 million positions save, or 40 million with `fastmath`.
 * **Frame of the instantaneous dwell.** The goal holds for a call on its own. In this table it runs between other
