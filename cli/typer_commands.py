@@ -479,8 +479,7 @@ def _export(
 
     Closed outlines run counter-clockwise, also round a hole; the rows of a CSV of a cam follow its angle.
 
-    STEP (solids) needs cadquery-ocp: pip install cadquery-ocp (Python 3.11 to 3.14). REXS 1.7 is one file for all
-    gears.
+    STEP (solids) needs cadquery-ocp: pip install cadquery-ocp. REXS 1.7 is one file for all gears.
 
     Exit status 1: the files were written, but a check of the design fails.
 

@@ -361,9 +361,10 @@ class Outlines:
             within = np.abs(near) < self.locking * (1.0 - _INSIDE)
             if drive.sign > 0.0:  # what lies beyond the edges is the overlap
                 within &= np.abs(np.angle(near)) < drive.half - _INSIDE
-            # arcs over a chord are the places of equal angle at which it is seen
-            seen = np.angle((end - near) / (end.conjugate() - near)) % TURN
-            return np.where(within, usual - end.real + end.imag / np.tan(0.5 * seen), 0.0)
+            with np.errstate(divide="ignore", invalid="ignore"):  # points on the chord, which are not within
+                # arcs over a chord are the places of equal angle at which it is seen
+                seen = np.angle((end - near) / (end.conjugate() - near)) % TURN
+                return np.where(within, usual - end.real + end.imag / np.tan(0.5 * seen), 0.0)
 
         return usual - max(0.0, self._deepest(rise))
 

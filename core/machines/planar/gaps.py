@@ -173,10 +173,8 @@ def carrier(structure: Structure, one: Axis, other: Axis, played: Container[str]
 
 def _is_held(structure: Structure, axis: Axis, body: str, played: Container[str]) -> bool:
     holder, point = axis
-    _, *others = (name for name, points in structure.spec.bodies.items() if point in points)
-    if body not in others:
-        return body == holder
-    return (point if body == others[0] else f"{point}_{body}") not in played
+    pins = [name for name, (_, other) in structure.pins_at(point).items() if other == body]
+    return pins[0] not in played if pins else body == holder
 
 
 def squared_distance(structure: Structure, one: Axis, other: Axis) -> Callable[[Jets, int], Reals]:

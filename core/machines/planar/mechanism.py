@@ -188,8 +188,7 @@ def _sizes(structure: Structure) -> Iterator[tuple[str, str, str, complex]]:
 def _elements(structure: Structure, body: str, point: str) -> tuple[str, ...]:
     """Joints whose element on a body stands at a point of it, by its name: another point may lie at the same place."""
     spec = structure.spec
-    holder, *others = (name for name, points in structure.bodies.items() if point in points)
-    pins = [point if k == 0 else f"{point}_{other}" for k, other in enumerate(others) if body in (holder, other)]
+    pins = [name for name, bodies in structure.pins_at(point).items() if body in bodies]
     gears = [
         name
         for name, mesh in spec.meshes.items()

@@ -173,14 +173,17 @@ class Structure:
         """The pins, by point in the order in which points first occur."""
         found = []
         for point in dict.fromkeys(point for body in self.bodies.values() for point in body):
-            first, *others = (name for name, body in self.bodies.items() if point in body)
-            for k, other in enumerate(others):
+            for name, (first, other) in self.pins_at(point).items():
                 places = self.bodies[first][point], self.bodies[other][point]
-                name = point if k == 0 else f"{point}_{other}"
                 found.append(
                     PinJoint(name, self.numbers[first], self.numbers[other], *places, self.plays.get(name, 0j))
                 )
         return tuple(found)
+
+    def pins_at(self, point: str) -> dict[str, tuple[str, str]]:
+        """The pins of a point by name, each of the first body that has it and one of the others."""
+        first, *others = (name for name, body in self.bodies.items() if point in body)
+        return {point if k == 0 else f"{point}_{other}": (first, other) for k, other in enumerate(others)}
 
     @cached_property
     def slides(self) -> dict[str, LineJoint]:
