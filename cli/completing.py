@@ -59,8 +59,8 @@ def quantities(incomplete: str) -> Offer:
     """Quantities of the design file on the line, with what they mean."""
     from gearlink.core.base.nomenclature import TERMS, term
 
-    names = _of_design("quantity_names") or TERMS
-    return _beginning(incomplete, ((name, term(name).words) for name in names))
+    names, (kind, _) = _of_design("quantity_names") or TERMS, _design()
+    return _beginning(incomplete, ((name, term(name, kind.name if kind else "").words) for name in names))
 
 
 def tables(incomplete: str) -> Offer:

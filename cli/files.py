@@ -139,8 +139,8 @@ def _advice(error: OSError, path: Path) -> str:
     if sys.platform == "win32" and path.is_file():  # nothing is moved there to a name that a program has open
         return "close the program that shows it"
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return "write into a folder that you may write to: --out DIR"
-    return "free some space, or write to another disk: --out DIR" if error.errno == errno.ENOSPC else ""
+        return "write into a folder that you may write to (--out)"
+    return "free some space, or write to another disk (--out)" if error.errno == errno.ENOSPC else ""
 
 
 @contextmanager

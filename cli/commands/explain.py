@@ -383,12 +383,12 @@ _CITED = {
 
 
 def _place(label: str, place: Place) -> Topic:
-    from gearlink.core.base.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import entries
 
     shown = f"({label})" if place.what == "equation" else f"{place.what} {label}"
     cited = re.compile(_CITED[place.what].format(re.escape(label)))
     source = place.source.split()[-1]  # the source of a quantity may be named by its last word alone
-    given = [name for name, term in TERMS.items() if source in term.source and cited.search(term.source)]
+    given = [name for name, _, term in entries() if source in term.source and cited.search(term.source)]
     told = {"Kinds": ", ".join(place.kinds), "Commands": ", ".join(f"gearlink {name}" for name in place.commands)}
     told |= {"Quantities": ", ".join(given)}
     return Topic("place", f"{place.source}, {shown}", place.says, {k: words for k, words in told.items() if words})

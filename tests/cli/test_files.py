@@ -49,7 +49,7 @@ def test_folder_in_the_way(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("number", "fix"),
     [
-        (errno.EACCES, "write into a folder that you may write to: --out DIR"),
+        (errno.EACCES, "write into a folder that you may write to (--out)"),
         (errno.ENOSPC, "free some space"),
         (0, ""),
     ],
