@@ -198,7 +198,7 @@ def _fault(fault: Exception) -> int:
         print(f"error: {visible(f'{where}{fault.strerror or fault}')}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if isinstance(fault, MemoryError):
-        print("error: out of memory\n  help: reduce rows, samples or --jobs, or raise the limit", file=sys.stderr)
+        print("error: out of memory\n  help: reduce rows, samples or --jobs, or increase the limit", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if isinstance(fault, CannotWrite):
         what, _, remedy = str(fault).partition("\n")

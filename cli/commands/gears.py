@@ -169,7 +169,7 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
         return ExitCode.OK
     if not options.quiet:
         remedy = (
-            _remedy(task) if carried is None else "raise --center-distance or --width-ratio, or a better --material"
+            _remedy(task) if carried is None else "increase --center-distance or --width-ratio, or a better --material"
         )
         print(f"no pair meets these conditions: {remedy}", file=sys.stderr)
     return ExitCode.FINDING
@@ -195,7 +195,7 @@ def _remedy(task: PairTask) -> str:
     if fewest > MOST_TEETH * (1.0 + task.tolerance):
         return (
             f"gear 1 of {task.least_teeth} teeth and more takes a sum of {fewest:.0f}, but pairs are searched only up "
-            f"to {MOST_TEETH}: lower --least-teeth or --ratio"
+            f"to {MOST_TEETH}: reduce --least-teeth or --ratio"
         )
     return "widen --shift-sum or --ratio-tolerance, or name other --modules"
 

@@ -252,7 +252,7 @@ def _remedy(part: Part, tolerance: float, form: CurveForm) -> str:
     for coarser in (step for step in steps if tolerance < step <= MOST_TOLERANCE):
         with suppress(TooFine):
             _sampled(part, coarser, form, MOST_POINTS)
-            return f"raise --tolerance to {coarser:g}"
+            return f"increase --tolerance to {coarser:g}"
     if not part.teeth:
         return f"no tolerance up to {MOST_TOLERANCE:g} mm is sufficient for a part of this size"
     least = sum(_steps(piece) for piece in _sampled(part, MOST_TOLERANCE, form, MOST_POINTS * part.teeth))

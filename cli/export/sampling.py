@@ -34,7 +34,7 @@ _LEAST_CUBIC_STEPS = 4  # one more than a cubic without given end slopes needs
 class TooFine(GearlinkError):
     """The tolerance asks for more points than a file should hold."""
 
-    def __init__(self, tolerance: float, remedy: str = "raise --tolerance") -> None:
+    def __init__(self, tolerance: float, remedy: str = "increase --tolerance") -> None:
         super().__init__(f"a tolerance of {tolerance:g} mm needs more than {MOST_POINTS} points: {remedy}")
 
 

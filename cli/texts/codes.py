@@ -353,7 +353,7 @@ def key_of(data: dict[str, Any], check: Check) -> str:
     Of a section it is the key that the remedy changes, where that stands in it.
 
     Example
-        >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "sum", "fail", "", advice="raise cam.base_radius"))
+        >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "sum", "fail", "", advice="increase cam.base_radius"))
         'cam.base_radius'
     """
     if member := _member(data, check):

@@ -58,8 +58,8 @@ def whole_paths(text: str, spec: Any, section: str) -> str:
         >>> from types import SimpleNamespace
         >>> class Spec:
         ...     model_fields = {"cam": SimpleNamespace(alias=None), "stroke": SimpleNamespace(alias=None)}
-        >>> whole_paths("set stroke to 5, or lower cam.offset of the cam", Spec(), "members.lift.design")
-        'set members.lift.design.stroke to 5, or lower members.lift.design.cam.offset of the cam'
+        >>> whole_paths("set stroke to 5, or reduce cam.offset of the cam", Spec(), "members.lift.design")
+        'set members.lift.design.stroke to 5, or reduce members.lift.design.cam.offset of the cam'
     """
     keys = {field.alias or name for name, field in type(spec).model_fields.items()}
 

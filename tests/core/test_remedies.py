@@ -344,6 +344,16 @@ def test_links_are_changed_of_a_wheel_whose_teeth_are_chosen_for_times() -> None
     assert not any(map(any, now.values()))
 
 
+def test_findings_of_one_tool_name_one_rounding() -> None:
+    data = factory.worked("drawn_feed")
+    data["gears"] |= {"idler": 23, "tool": {"addendum": 1.0625, "rounding": 0.3}}
+    found = [c for c in design(data, "analyze").findings("analyze", "fillet-interference") if c.status == "fail"]
+    ((key, value),) = {pair for check in found for pair in check.remedy}
+    data["gears"]["tool"]["rounding"] = value
+    assert (len(found), key) == (3, "gears.tool.rounding")
+    assert all(check.status == "pass" for check in design(data, "analyze").check("fillet-interference"))
+
+
 def test_a_remedy_that_leaves_a_warning_says_so() -> None:
     data: Data = {"kind": "gear-pair", "module": 2, "teeth": [11, 51], "profile_shift": [-0.67, -0.54]}
     data |= {"clearance": 0.28, "addendum": 0.94}

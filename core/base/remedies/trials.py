@@ -148,26 +148,34 @@ class Bench:
                 yield remedy
 
     def _farther(self, remedy: Remedy, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
-        """Where another failing finding is repaired along the same way: the nearest value with which nothing fails.
+        """Where the same way repairs other failing findings: the nearest value that repairs them all.
 
-        Both then name it, and whoever follows the first advice has followed the second.
+        Each of them then names it, and whoever follows the first advice has followed the others.
         """
         keys = tuple(key for key, _ in remedy)
         ways = [way for way in self._design.ways_of(name) if way.keys == keys]
-        if ways and any(way in ways for each in self._failing_beside(name) for way in self._design.ways_of(each)):
-            for each in self._along(ways[0], lambda tried: good(tried) and self._holds(tried)):
+        others = [] if not ways else self._failing_of(ways)
+        if len(others) > 1:
+
+            def repairs(tried: Remedy) -> bool:
+                return good(tried) and all(self._grade(tried, *each) == PASSES for each in others)
+
+            for each in self._along(ways[0], repairs):
                 if self._is_affordable_elsewhere(each) and self._grade_elsewhere(each) == PASSES:
                     yield each
                 return
 
-    def _failing_beside(self, name: str) -> list[str]:
-        """The checks of the failing findings but for one of this check."""
+    def _failing_of(self, ways: list[Way]) -> list[tuple[str, int]]:
+        """The failing findings that one of the ways bears on: the check, and which of its findings."""
         with suppress(NoSolution):
-            names = chain.from_iterable(map(self._before.checks, self._commands))
-            failing = [each for each in names for rank in self._before.ranks(each) if rank == FAILS]
-            if name in failing:
-                failing.remove(name)
-            return failing
+            names = dict.fromkeys(chain.from_iterable(map(self._before.checks, self._commands)))
+            return [
+                (name, index)
+                for name in names
+                if any(way in ways for way in self._design.ways_of(name))
+                for index, rank in enumerate(self._before.ranks(name))
+                if rank == FAILS
+            ]
         return []
 
     def _begin(self) -> None:

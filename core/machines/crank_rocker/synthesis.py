@@ -337,7 +337,7 @@ def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: 
         raise NoSolution(
             f"no linkage generates this function with a transmission angle of {math.degrees(least):g} deg",
             key="function",
-            fix="use smaller swings, or lower limits.transmission_angle",
+            fix="use smaller swings, or reduce limits.transmission_angle",
         )
     best = min((_descended(wanted, one, given, least) for one in _apart(found)), key=lambda one: one.error)
     offsets = through_pairs(best.pairs, 1.0)

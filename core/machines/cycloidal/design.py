@@ -396,7 +396,7 @@ class CycloidalReducer(RealSpeed, Design):
             return
         gap = self.tightest.value
         what, overlap = "minimum gap between disc and pins", "interference of disc and pins"
-        fix = "raise modification.offset"
+        fix = "increase modification.offset"
         status: Status = "fail" if gap < 0.0 else "pass"
         yield DISC_INTERFERENCE.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
@@ -405,7 +405,7 @@ class CycloidalReducer(RealSpeed, Design):
         k, (low, high) = self.shortening, _USUAL
         limit = low if k < low else high
         what, aside = "shortening coefficient e Z/R", f"usual {low:g} to {high:g}"
-        fix = "raise eccentricity"
+        fix = "increase eccentricity"
         if k:
             per = self.spec.eccentricity / k
             fix = f"set eccentricity from {within(per * low, per * high, 'mm')}"
@@ -419,5 +419,5 @@ class CycloidalReducer(RealSpeed, Design):
             return
         safety, limit = bears / stress, self.spec.limits.safety_pitting
         status: Status = "fail" if safety < limit else "pass"
-        aside, fix = f"contact stress {short(stress)} N/mm^2", "raise width"
+        aside, fix = f"contact stress {short(stress)} N/mm^2", "increase width"
         yield PITTING.check(status, "pitting safety S_H", safety, limit, aside=aside, fix=fix)

@@ -205,7 +205,7 @@ class FollowerCams:
         assert roller.distance is not None
         if roller.distance < least * (1.0 - 1e-12):
             message = f"at a roller distance of {short(roller.distance)} mm the return cam does not keep cam.size"
-            fix = f"raise return_roller.distance to {safely_above(least)} mm, or omit it"
+            fix = f"increase return_roller.distance to {safely_above(least)} mm, or omit it"
             raise NoSolution(message, key="return_roller.distance", fix=fix)
 
     def _rocking_place(self) -> Place:
@@ -226,7 +226,7 @@ class FollowerCams:
             if low > high:
                 message = "no start angle keeps the pressure angle of both rollers"
                 raise NoSolution(
-                    message, key="cam.size", fix="raise cam.size.pressure_angle, or change return_roller.angle"
+                    message, key="cam.size", fix="increase cam.size.pressure_angle, or change return_roller.angle"
                 )
         start = first_from_which(
             lambda psi: self._room(psi, follower.center_distance),

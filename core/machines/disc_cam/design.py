@@ -447,7 +447,7 @@ class DiscCamDesign(OfFollower, Design):
             return
         limit = self.spec.limits.curvature_radius
         if self.spec.is_flat:
-            yield flat_undercut_check(self.cams.flat, limit, "raise cam.base_radius by {} mm")
+            yield flat_undercut_check(self.cams.flat, limit, "increase cam.base_radius by {} mm")
         else:
             yield edge_check(self.cams.sharpest, limit, _LARGER)
 
@@ -482,7 +482,7 @@ class DiscCamDesign(OfFollower, Design):
         off, limit = float(np.abs(along - distance).max()), 1e-9 * distance
         what, aside = "deviation of the sum of the pitch radii", f"roller distance {short(distance)} mm"
         status: Status = "fail" if off > limit else "pass"
-        fix = "raise return_roller.distance: the return roller passes the cam axis"
+        fix = "increase return_roller.distance: the return roller passes the cam axis"
         yield CONSTANT_SUM.check(status, what, off, limit, "mm", aside=aside, fix=fix)
 
     def check_lift_off(self) -> Iterator[Check]:
@@ -504,7 +504,7 @@ class DiscCamDesign(OfFollower, Design):
             if spec.spring is not None and spec.spring.least_force is not None:  # the preload follows from it
                 more, key = more - (closing.preload or 0.0) + spec.spring.least_force, "least_force"
             unit = "N m" if spec.oscillates else "N"
-            fix = f"raise spring.{key} to {safely_above(more)} {unit} (10 % speed margin)"
+            fix = f"increase spring.{key} to {safely_above(more)} {unit} (10 % speed margin)"
         at = f"cam angle {short(math.degrees(found.place))} deg"
         most = _RESERVE * spec.speed
         yield LIFT_OFF.check(

@@ -253,7 +253,7 @@ class FollowerCamLoads(_Loads):
     def closing_remedy(self) -> str:
         """What presses the follower harder."""
         if self.spec.spring is not None:
-            return "raise spring.preload"
+            return "increase spring.preload"
         rate, force = ("N m/rad", "N m") if self.spec.oscillates else ("N/mm", "N")
         return f"give spring: {{preload: {force}, rate: {rate}}}"
 

@@ -70,7 +70,7 @@ class Series(NamedTuple):
             raise NoSolution(
                 f"the points leave the profile open: gap of {widest:.4g} deg for {order} harmonics",
                 key="harmonics",
-                fix="lower harmonics, or give points in the gap",
+                fix="reduce harmonics, or give points in the gap",
             )
         return cls(np.append(found[0], found[1 : order + 1]), np.append(0.0, found[order + 1 :]))
 
@@ -243,7 +243,7 @@ class MeasuredCam:
             raise NoSolution(
                 f"undercut or noise: the cam angle turns back at {worst:.4g} deg of the profile",
                 key="profile",
-                fix="lower harmonics, or check roller_radius",
+                fix="reduce harmonics, or check roller_radius",
             )
         return t, found.cam_angle[0]
 
@@ -274,7 +274,7 @@ class MeasuredCam:
         raise NoSolution(
             f"no point of the profile to the cam angle, {math.degrees(last):.3g} deg missed",
             key="profile",
-            fix="lower harmonics, or check the points",
+            fix="reduce harmonics, or check the points",
         )
 
     def motion(self, phi: Reals) -> tuple[Reals, Reals, Reals]:

@@ -93,7 +93,7 @@ def teeth_for_times(
         raise NoSolution(
             f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.4g')} in {short(share)} "
             f"of a cycle with a wheel of at most {most_teeth} teeth",
-            fix="raise most_teeth, use fewer groups, or another driven_turn",
+            fix="increase most_teeth, use fewer groups, or another driven_turn",
         )
     _, full, n, z = min(found)
     return full, n, z, z // math.gcd(z, n)
@@ -560,7 +560,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
                 target.tolerance,
                 shown=Shown(100.0 * abs(off), 100.0 * target.tolerance, "%", "<="),
                 aside=f"{short(got)} input revolutions, required {short(asked)}",
-                fix="raise target.most_teeth",
+                fix="increase target.most_teeth",
             )
 
     def check_start_shock(self) -> Check:

@@ -340,7 +340,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     if not given and not found:
         raise NoSolution(
             ("none of the starts closes over a whole revolution with the required transmission angle"),
-            fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
+            fix=("start from links that do (longer coupler and follower), or reduce limits.transmission_angle"),
         )
     return min(found + given, key=lambda fit: fit.rms)
 
@@ -476,7 +476,7 @@ def fit_timed(
     if best is None:
         raise NoSolution(
             ("none of the starts closes over a whole revolution with the required transmission angle"),
-            fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
+            fix=("start from links that do (longer coupler and follower), or reduce limits.transmission_angle"),
         )
     return TimedFit(best.fit, best.first_angle, tuple(rounds))
 

@@ -168,7 +168,7 @@ def _zone_length(design: FlatbedPress) -> Check:
     if asked == 0.0:
         what, aside = "length of the synchronous zone", "no print_length given"
         return SYNC_LENGTH.check("pass", what, length, 0.0, "mm", shown=Shown(length, None, "mm"), aside=aside)
-    remedy = "raise sync.length" if design.spec.sync.end is None else "raise sync.end"
+    remedy = "increase sync.length" if design.spec.sync.end is None else "increase sync.end"
     return SYNC_LENGTH.below(length, asked, asked, "mm", "travel of the cylinder in the zone", remedy)
 
 
@@ -840,7 +840,7 @@ class PressCams(DiscCams):
                     f"base radius of the cams for a roller of {roller:g} mm: above {short(low)} mm, none found "
                     "(undercut)",
                     key="cam.roller_radius",
-                    fix="raise cam.return_angle, or use a smaller roller",
+                    fix="increase cam.return_angle, or use a smaller roller",
                 )
         return high if high == low else bracketed_root(room, low, high)
 
@@ -1562,7 +1562,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         off = float(np.abs(radii[0] + radii[1] - distance).max())
         limit = 1e-9 * distance
         what, aside = "deviation of the sum of the pitch radii", f"roller distance {short(distance)} mm"
-        fix = "raise cam.base_radius: the return cam's roller passes the cam axis"
+        fix = "increase cam.base_radius: the return cam's roller passes the cam axis"
         return CONSTANT_SUM.check("fail" if off > limit else "pass", what, off, limit, "mm", aside=aside, fix=fix)
 
     def check_velocity_step(self) -> Check:

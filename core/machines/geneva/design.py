@@ -752,9 +752,9 @@ class GenevaDrive(RealSpeed, Design):
             return
         off, most = self.wheel_radius * math.sin(0.5 * play), 0.5 * self.spec.slot_clearance
         what = "offset of a slot at its mouth, of the locked wheel"
-        fix = f"raise slot_clearance to {safely_above(2.0 * off)} mm, or chamfer the mouths of the slots"
+        fix = f"increase slot_clearance to {safely_above(2.0 * off)} mm, or chamfer the mouths of the slots"
         if off > most > 0.0:
-            fix = f"lower locking_clearance to {safely_below(self.spec.locking_clearance * most / off)} mm, {fix}"
+            fix = f"reduce locking_clearance to {safely_below(self.spec.locking_clearance * most / off)} mm, {fix}"
         yield PIN_ENTRY.check("warn" if off > most else "pass", what, off, most, "mm", fix=fix)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
@@ -770,7 +770,7 @@ class GenevaDrive(RealSpeed, Design):
                 continue
             fails = place <= radius
             subject, aside = f"free radius inside the {what}", f"radius of the {body}"
-            fix = f"lower {key}, or enlarge center_distance"
+            fix = f"reduce {key}, or increase center_distance"
             yield SHAFT_CLEARANCE.check("fail" if fails else "pass", subject, place, radius, "mm", aside=aside, fix=fix)
 
     def check_step_rate(self) -> Iterator[Check]:

@@ -279,7 +279,7 @@ class DwellSynthesis(TwoGearFourBar):
             raise NoSolution(
                 f"even a uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage "
                 "needed",
-                fix="raise dwell.window, or reduce dwell.tolerance",
+                fix="increase dwell.window, or reduce dwell.tolerance",
             )
 
     def _refuse_long_window(self, window: float) -> None:

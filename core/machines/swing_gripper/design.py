@@ -867,8 +867,8 @@ class Closure:
     def spring_remedy(self, torque: float, *, tells: bool) -> str:
         """What gives the spring a torque [N m], rounded up; where it `tells`, by its value."""
         if self.spring.torque is not None:
-            return f"raise spring.torque{f' to {safely_above(torque, 4)} N m' if tells else ''}"
-        return f"raise spring.preload{f' to {safely_above(self.preload_for(torque), 4)} N' if tells else ''}"
+            return f"increase spring.torque{f' to {safely_above(torque, 4)} N m' if tells else ''}"
+        return f"increase spring.preload{f' to {safely_above(self.preload_for(torque), 4)} N' if tells else ''}"
 
     @cached_property
     def lift_sense(self) -> int:
@@ -1393,7 +1393,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
             "opening of the fingers at the end of the release window",
             f"{short(self.fingers.release_degrees)} deg",
         )
-        fix = "lower fingers.open.from or fingers.open.over" if status == "fail" else ""
+        fix = "reduce fingers.open.from or fingers.open.over" if status == "fail" else ""
         yield FINGER_RELEASE.check(status, what, opened, half, "deg", at=at, fix=fix)
 
     def check_stop_settling(self) -> Iterator[Check]:
@@ -1405,7 +1405,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         what, overlap = "rest on the stop before the pick-up", "settling on the stop beyond the pick-up"
         at = f"{short(self.stop.impact_degrees)} deg"
         limit = 0.0 if status == "fail" else least
-        fix = "lower stop.restitution or stop.clearance" if status != "pass" else ""
+        fix = "reduce stop.restitution or stop.clearance" if status != "pass" else ""
         aside = f"settled in {short(self.stop.settling_time)} ms"
         yield STOP_SETTLING.check(status, what, margin, limit, "deg", at=at, fix=fix, aside=aside, overlap=overlap)
 

@@ -171,7 +171,7 @@ class GripperLoads(CamLoadsDesign):
         spring = self.spec.spring
         if spring is None:
             return "give spring: {torque: N m}"
-        return f"raise spring.{'torque' if spring.torque is not None else 'preload'}"
+        return f"increase spring.{'torque' if spring.torque is not None else 'preload'}"
 
     @property
     def moving(self) -> Motion:

@@ -225,7 +225,7 @@ class DwellTask(FamilyTask):
             raise NoSolution(
                 f"even a uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage "
                 "needed",
-                fix="raise dwell.window, or reduce dwell.tolerance",
+                fix="increase dwell.window, or reduce dwell.tolerance",
             )
 
     def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:

@@ -573,6 +573,6 @@ def frame_ratio_for_window(angle: float, share: float, n: float, transmission: f
             raise NoSolution(
                 f"frame over crank for {short(math.degrees(angle))} deg within +-{100.0 * share:g} %: above {_MOST:g} "
                 "(not computed)",
-                fix="reduce the uniform angle, or raise uniform_tolerance",
+                fix="reduce the uniform angle, or increase uniform_tolerance",
             )
     return bracketed_root(lambda x: window_of_family(x, n, share) - angle, before, d)

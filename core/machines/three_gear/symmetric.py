@@ -281,14 +281,14 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
         raise NoSolution(
             f"back-step within {_deg(2.0 * h)} deg of the crank: {_deg(back_step_angle, limit)} deg (above 0, "
             f"below {_deg(limit, back_step_angle)} deg)",
-            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
+            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or increase back_step.crank_angle",
         )
     v = bracketed_root(lambda v: _back_step(v, h) - back_step_angle, 0.0, 1.0)
     if v == 1.0:
         raise NoSolution(
             f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is the limit, "
             f"{_deg(limit)} deg, to rounding, and needs an infinite idler",
-            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
+            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or increase back_step.crank_angle",
         )
     return -v / (1.0 - v)
 

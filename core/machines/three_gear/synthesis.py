@@ -308,10 +308,10 @@ def _obstacle(reached: list[tuple[int, float, float]], angle_limit: float, gap_l
     angles = "transmission angle at most "
     if best_angle[1] < angle_limit:
         best = f"{safely_below(math.degrees(best_angle[1]))} deg, idler {best_angle[0]}"
-        return f"{head}{angles}{best} {asked_angle}", "lower limits.transmission_angle"
+        return f"{head}{angles}{best} {asked_angle}", "reduce limits.transmission_angle"
     both = max((row for row in reached if row[2] >= gap_limit), key=lambda row: row[1])
     best = f"{safely_below(math.degrees(both[1]))} deg, idler {both[0]}"
-    return f"{head}with the gear gap {angles}{best} {asked_angle}", "lower limits.transmission_angle"
+    return f"{head}with the gear gap {angles}{best} {asked_angle}", "reduce limits.transmission_angle"
 
 
 # Candidates side by side
@@ -450,7 +450,7 @@ class BackStepTask(FamilyTask):
                 raise NoSolution(
                     f"back-step within {short(task.crank_angle)} deg of the crank: {unlike(task.angle, least)} deg "
                     f"(limit >= {unlike(least, task.angle)} deg, that of an idler of one tooth)",
-                    fix=f"set back_step.angle to at least {safely_above(least, 3)} deg, or lower its crank_angle",
+                    fix=f"set back_step.angle to at least {safely_above(least, 3)} deg, or reduce its crank_angle",
                 )
         return idler_for_ratio(i3, output)
 

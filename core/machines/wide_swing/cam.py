@@ -230,7 +230,7 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float, noise
         raise NoSolution(
             f"roller radius: {unlike(roller_radius, most)} mm (limit < {unlike(most, roller_radius)} mm, where the "
             "roller at rest covers the whole profile)",
-            fix=f"set cam.roller_radius below {safely_below(most)} mm, or raise cam.center_distance",
+            fix=f"set cam.roller_radius below {safely_below(most)} mm, or increase cam.center_distance",
         )
     within = np.flatnonzero(room < 0.0)
     if not within.size:

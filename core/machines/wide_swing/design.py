@@ -258,12 +258,12 @@ def _more_force(design: WideSwingDesign) -> str:
     safe = remedies.reserve(unloader.residual, 0.1, need)
     key = {"pneumatic": "force", "spring": "rate", "gravity": "mass"}[unloader.type]
     if getattr(unloader, key) is None:
-        return f"raise unloader.reserve to {safely_above(safe)} (10 % speed margin)"
+        return f"increase unloader.reserve to {safely_above(safe)} (10 % speed margin)"
     if unloader.type == "gravity":
         if safe >= design.motion.most_pendulum_reserve:
-            return "move the mass closer to the axis, or lower the speed"
-        return f"raise unloader.mass to {safely_above(design.motion.pendulum_mass(1.0 + safe))} (10 % speed margin)"
-    return f"raise unloader.{key} to {safely_above(size.balancing * (1.0 + safe))} (10 % speed margin)"
+            return "move the mass closer to the axis, or reduce the speed"
+        return f"increase unloader.mass to {safely_above(design.motion.pendulum_mass(1.0 + safe))} (10 % speed margin)"
+    return f"increase unloader.{key} to {safely_above(size.balancing * (1.0 + safe))} (10 % speed margin)"
 
 
 # Cams

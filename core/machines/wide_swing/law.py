@@ -520,7 +520,7 @@ class _HalfSwing:
             raise NoSolution(
                 f"the source's iteration leaves the swing, at {short(a)} of it",
                 key="method",
-                fix="raise iteration_steps, or omit method, which gives the law by its integral",
+                fix="increase iteration_steps, or omit method, which gives the law by its integral",
             )
         energy = x
         if isinstance(device, Spring):
@@ -536,7 +536,7 @@ def _require_rest(guess: float, following: float, start: float) -> None:
         raise NoSolution(
             f"a step of the source's iteration does not settle, at {start:.4g} of the swing",
             key="iteration_steps",
-            fix="raise iteration_steps",
+            fix="increase iteration_steps",
         )
 
 

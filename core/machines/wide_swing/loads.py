@@ -894,7 +894,7 @@ class WideSwingLoads(LoadsDesign):
     def check_contact_loss(self) -> Iterator[Check]:
         """GL608: the device holds the roller on its cam up to the lift-off speed, and against all that acts besides."""
         speed, limit = self.spec.speed, self.lift_off_speed
-        slider, fix = self.spec.slider, "raise unloader.reserve"
+        slider, fix = self.spec.slider, "increase unloader.reserve"
         if slider is not None and changes_apart(self):
             fix = side_words(slider)
         status: Status

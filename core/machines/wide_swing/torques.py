@@ -338,7 +338,7 @@ def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
     """
     refusal = (
         "the rocker reverses so sharply within the stroke that the oscillations of its drive cannot be summed\n"
-        "raise unloader.pivot_ratio, reduce swing, or omit shaft"
+        "increase unloader.pivot_ratio, reduce swing, or omit shaft"
     )
     probe = cosine_series(lambda k: acceleration(k) * np.cos(math.pi * k), 1.0, refusal, first=32)
     values = acceleration((np.arange(probe.nodes) + 0.5) / probe.nodes)

@@ -401,7 +401,7 @@ class Programme:
         elif not wish.to_speed and wish.acceleration is not None:
             least = _ramp(wish.acceleration)
             text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {safely_below(least)})"
-        return NoSolution(text, fix="raise degree or a limit")
+        return NoSolution(text, fix="increase degree or a limit")
 
     # What is proved
 
@@ -659,7 +659,7 @@ def _bound_by_energy(wish: Wish, value: float) -> float:
         program = Program(cost, rows, np.full(limits.size, -np.inf), limits, lower, upper)
         found = solution(*program)
         if found is None:
-            raise NoSolution(f"no law keeps acceleration {top:g} and velocity {fastest:g}", fix="raise a limit")
+            raise NoSolution(f"no law keeps acceleration {top:g} and velocity {fastest:g}", fix="increase a limit")
         best = max(best, proved_bound(found, *program))
         at = np.maximum(found.x[_INTERVALS + 1 : -1], 1e-8)
     return best

@@ -84,4 +84,4 @@ def rows_for(motion: FollowerMotion, tolerance: float) -> int:
         ):
             return rows
     message = f"no step of the table meets the tolerance {tolerance:g}, not even {STEPS[-1]:g} deg"
-    raise NoSolution(message, key="servo.tolerance", fix="raise the tolerance")
+    raise NoSolution(message, key="servo.tolerance", fix="increase the tolerance")

@@ -130,7 +130,7 @@ def _nearest_admissible(
         point = _nearest_point(cuts, target, scale)
     raise NoSolution(
         f"a pressure angle of {math.degrees(max_pressure_angle):g} deg does not determine the smallest cam",
-        fix="raise the pressure angle of cam.size slightly",
+        fix="increase the pressure angle of cam.size slightly",
     )
 
 
@@ -169,7 +169,7 @@ def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: fl
     if feasible.size == 0:
         raise NoSolution(
             "no cam centre keeps the pressure angle within its limit over the whole revolution",
-            fix="raise the limit of the pressure angle, lengthen the phases or reduce the swing",
+            fix="increase the limit of the pressure angle, lengthen the phases or reduce the swing",
         )
     return complex(feasible[int(np.argmin(np.abs(feasible - target)))])
 
@@ -365,7 +365,9 @@ class Rocking(NamedTuple):
 
 def _nowhere() -> NoSolution:
     message = "no cam meets this pressure angle at this center_distance"
-    return NoSolution(message, key="cam.size", fix="raise cam.size.pressure_angle, or change follower.center_distance")
+    return NoSolution(
+        message, key="cam.size", fix="increase cam.size.pressure_angle, or change follower.center_distance"
+    )
 
 
 def first_from_which(least: Callable[[float], float], low: float, high: float, key: str, *, steps: int = 1) -> float:
@@ -385,7 +387,7 @@ def first_from_which(least: Callable[[float], float], low: float, high: float, k
             return bracketed_root(least, before, place)
         before = place
     raise NoSolution(
-        "no cam meets this curvature_radius here", key=key, fix=f"lower {key}.curvature_radius, or lengthen the motion"
+        "no cam meets this curvature_radius here", key=key, fix=f"reduce {key}.curvature_radius, or lengthen the motion"
     )
 
 

@@ -271,7 +271,7 @@ def form_parts(pair: GearPair, gear: int) -> dict[str, float]:
 
 _NO_FORM = {
     "height of the teeth of ": ("the teeth of {} have no height", "reduce the sum of the profile shifts"),
-    "root radius of ": ("the root circle of {} has no radius", "raise its profile shift or use more teeth"),
+    "root radius of ": ("the root circle of {} has no radius", "increase its profile shift or use more teeth"),
     "tip thickness of ": ("the teeth of {} are pointed below their tips", "reduce its profile shift or its addendum"),
     "tooth thickness on the reference circle of ": ("the teeth of {} have no thickness on the reference circle", ""),
     "tooth space on the reference circle of ": ("the teeth of {} have no space on the reference circle", ""),
@@ -302,7 +302,7 @@ def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
     enough = math.ceil(gear.pair.min_teeth_of(gear.place) - 1e-9)
     remedy = f"use at least {enough} teeth, or a larger pressure angle"
     if gear.shifts:
-        remedy = f"raise its profile shift to {safely_above(least)}, or use more teeth"
+        remedy = f"increase its profile shift to {safely_above(least)}, or use more teeth"
     shown = Shown(x, least - (limits.undercut if found.status == "pass" else 0.0))
     what = f"{gear.named('profile shift x of ')} ({teeth} teeth)"
     aside = "undercut begins there" if found.status != "pass" else ""
@@ -328,7 +328,7 @@ def tip_check(found: Measured, subject: str, teeth: str, fix: str) -> Check:
 def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found, tip = gear.measured(INTERFERENCE.name, limits), gear.named("tip of ")
     remedy = (
-        f"raise the profile shift of {gear.mate} or lower the addendum of {gear.roles[gear.place]}"
+        f"increase the profile shift of {gear.mate} or reduce the addendum of {gear.roles[gear.place]}"
         if gear.shifts
         else f"use more teeth on {gear.mate}, or a larger pressure angle"
     )
@@ -347,11 +347,12 @@ def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear.measured(ROOT_CLEARANCE.name, limits)
     subject = f"{gear.named('clearance at the root of ')} over the module"
     deeper = gear.pair.tools[gear.place] is not None
-    remedy = f"raise the {'addendum of its tool' if deeper else 'clearance coefficient'}"
+    remedy = f"increase the {'addendum of its tool' if deeper else 'clearance coefficient'}"
     if not deeper and gear.pair.keeps_clearance:
         remedy += f" to {found.warns_below:g} or more"
     else:
-        remedy += f", or shorten the tips of {gear.mate}"
+        missing = safely_above(found.warns_below - found.value, 3) if found.status != "pass" else ""
+        remedy += f" by {missing} modules, or shorten the tips of {gear.mate}"
     yield ROOT_CLEARANCE.below(*found, "1", subject, remedy)
 
 
@@ -375,7 +376,7 @@ def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
         return
     size = abs(found[gear.place])
     what = gear.named("specific sliding at the root of ")
-    fix = "raise its profile shift" if gear.shifts else "use more teeth"
+    fix = "increase its profile shift" if gear.shifts else "use more teeth"
     yield SLIDING.check("warn" if size > limit else "pass", what, size, limit, fix=fix)
 
 

@@ -274,7 +274,7 @@ def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
         at = f"{short(corner.place)} mm below the datum line"
         yield _judged(FILLET, (what, what), corner.gap, noise, "shorten the tips of gear 1", at)
         return
-    fix = "lower the profile shift or the addendum of gear 1"
+    fix = "reduce the profile shift or the addendum of gear 1"
     yield _judged(FILLET, _contact("the root rounding of the rack"), margin, noise, fix)
 
 
@@ -293,7 +293,7 @@ def _tip(rack: RackMesh, limits: Any) -> Iterator[Check]:
     share, limit = rack.tip_width / rack.pair.module, limits.tip_thickness
     subject = "tip width of the rack over the module"
     found = Measured(share, limit, limit + _USUAL_TIP)
-    yield tip_check(found, subject, "the teeth of the rack", "lower the addendum")
+    yield tip_check(found, subject, "the teeth of the rack", "reduce the addendum")
 
 
 def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
@@ -302,7 +302,7 @@ def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
     if found is None or (limits.sliding is None and abs(found[0]) <= limit):
         return
     status: Status = "warn" if abs(found[0]) > limit else "pass"
-    fix = "raise its profile shift or use more teeth"
+    fix = "increase its profile shift or use more teeth"
     yield SLIDING.check(status, "specific sliding at the root of gear 1", abs(found[0]), limit, fix=fix)
 
 
@@ -328,7 +328,7 @@ def _judged(
     what: tuple[str, str],
     margin: float,
     limit: float,
-    fix: str = "raise the profile shift of gear 1 or use more teeth",
+    fix: str = "increase the profile shift of gear 1 or use more teeth",
     at: str = "",
 ) -> Check:
     """A finding that fails below its limit; `what` is kept, and what goes beyond where the margin is negative."""

@@ -162,7 +162,7 @@ def _out_of_range(data: GearData) -> Iterator[Check]:
         if factor is None:
             least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
             what = f"no root stress of {data.called(gear)}: its rim is too thin for ISO 6336-3"
-            yield BENDING.check("warn", what, fix=f"raise rim_thickness above {least}")
+            yield BENDING.check("warn", what, fix=f"increase rim_thickness above {least}")
     for gear, section in enumerate(data.root.sections):
         if section is None:
             what = f"no root stress of {data.called(gear)}: it has no root section as of ISO 6336-3"

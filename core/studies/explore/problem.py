@@ -124,7 +124,7 @@ class Problem:
         sizes = {v.path: len(v.values) or _most_values(v) for v in self.variables}
         widest = max(sizes, key=lambda path: sizes[path])
         message = f"designs of the grid: {count:.10g} (limit <= {budget:.10g}; sampling.budget)"
-        helps = f"use fewer values of {widest} ({sizes[widest]:.0f} values) or raise sampling.budget (--budget)"
+        helps = f"use fewer values of {widest} ({sizes[widest]:.0f} values) or increase sampling.budget (--budget)"
         return Fault("GL155", message, ("sampling", "budget"), helps)
 
     @cached_property

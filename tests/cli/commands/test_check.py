@@ -243,7 +243,7 @@ def test_a_fault_ends_only_its_design(gearlink: Any, tmp_path: Path, monkeypatch
 @pytest.mark.parametrize(
     ("message", "key"),
     [
-        ("raise cam.base_radius", "cam.base_radius"),
+        ("increase cam.base_radius", "cam.base_radius"),
         ("set limits.pressure_angle", "cam"),
         ("unknown name", "cam"),
         ("AD - AB = 103.4 mm, not 1.5", "cam"),

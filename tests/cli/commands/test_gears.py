@@ -152,6 +152,6 @@ def test_a_ratio_beyond_all_pairs_is_told(gearlink: Any) -> None:
     """17 teeth at 500 to 1 are 8517 together; 3 at 500 to 1 are 1503, which a module of 0.16 mm brings to 120 mm."""
     ended = gearlink("gears", "--ratio", "500", "--center-distance", "120")
     assert ended.status == 1
-    assert "takes a sum of 8517, but pairs are searched only up to 2000: lower --least-teeth or --ratio" in ended.err
+    assert "takes a sum of 8517, but pairs are searched only up to 2000: reduce --least-teeth or --ratio" in ended.err
     words = ("--least-teeth", "3", "--modules", "0.16")
     assert "pairs are searched" not in gearlink("gears", "--ratio", "500", "--center-distance", "120", *words).err

@@ -264,7 +264,9 @@ def test_what_a_refusal_of_too_many_points_recommends_works(
 
     ended = asked(teeth, "--tolerance", 1e-5)
     assert ended.status == ExitCode.WRONG_INPUT
-    remedy = re.search(r"needs more than 100000 points: (raise --tolerance to (\S+)|.* at most (\d+) teeth)", ended.err)
+    remedy = re.search(
+        r"needs more than 100000 points: (increase --tolerance to (\S+)|.* at most (\d+) teeth)", ended.err
+    )
     assert remedy
     if remedy[2]:
         assert asked(teeth, "--tolerance", remedy[2]).status == ExitCode.OK

@@ -244,7 +244,7 @@ def test_a_bump_between_the_middles_is_seen() -> None:
 
 def test_too_many_points_are_refused() -> None:
     stretch = Stretch(("PROFILE",), lambda t: 50.0 * np.exp(1j * t)[None, :], 0.0, 2.0 * math.pi)
-    with pytest.raises(TooFine, match="raise --tolerance"):
+    with pytest.raises(TooFine, match="increase --tolerance"):
         sample(stretch, 1e-5, CurveForm.POLYLINE, most=100)
 
 
@@ -323,7 +323,7 @@ def test_a_file_holds_so_many_points_whatever_its_curves(monkeypatch: pytest.Mon
     monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", whole.points)
     assert contour(part, 1e-3, CurveForm.POLYLINE).points == whole.points
     monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", whole.points - 20)
-    with pytest.raises(TooFine, match=r"raise --tolerance to 0\.002"):
+    with pytest.raises(TooFine, match=r"increase --tolerance to 0\.002"):
         contour(part, 1e-3, CurveForm.POLYLINE)
     assert contour(part, 2e-3, CurveForm.POLYLINE).points < whole.points - 20
     monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", 20)

@@ -209,7 +209,7 @@ def test_refuses_a_limit_out_of_range(limit: float) -> None:
 def test_refuses_a_rocker_that_moves_with_the_cam_too_fast() -> None:
     # an arm that turns right round meets every direction of the centre
     turning = RockingRoller(lambda phi: (phi, 1.0 + 0.0 * phi), 0j, 100.0, 1)
-    with pytest.raises(NoSolution, match=r"no cam centre keeps .*; raise the limit of the pressure angle"):
+    with pytest.raises(NoSolution, match=r"no cam centre keeps .*; increase the limit of the pressure angle"):
         smallest_cam_of_rollers([turning], math.radians(20.0), sense=-1)
 
 

@@ -119,7 +119,7 @@ def test_the_preload_of_the_fix_is_in_the_unit_of_the_follower() -> None:
         design = factory.design(dict(SLIDE, **keys))
         (check,) = [each for each in design.report("cam").checks if each.code == "GL406"]
         assert check.status == "fail"
-        assert re.fullmatch(rf"raise spring.preload to [\d.]+ {unit} \(10 % speed margin\)", check.advice)
+        assert re.fullmatch(rf"increase spring.preload to [\d.]+ {unit} \(10 % speed margin\)", check.advice)
 
 
 @pytest.mark.parametrize("follower", ["translating-roller", "translating-flat", "oscillating-roller"])

@@ -222,7 +222,7 @@ HALF = {"motion_turns": 1, "dwell_turns": 2, "driven_turn": 0.5}
 
 
 def test_wanted_times_that_cannot_be_had() -> None:
-    with pytest.raises(NoSolution, match="raise most_teeth"):
+    with pytest.raises(NoSolution, match="increase most_teeth"):
         factory.design("mutilated_gear_times", target={"motion_turns": 1, "dwell_turns": 500})
     with pytest.raises(NoSolution, match="another driven_turn"):
         factory.design("mutilated_gear_times", gears={"module": 3, "driven": 19}, target=HALF)

@@ -284,7 +284,7 @@ def test_base_radius_below_the_dip_of_the_lead_in_breaks_the_constant_sum():
     assert dip > 1.0
     (check,) = press(lead_in=60.0, base_radius=0.9 * dip, roller_radius=0.1).check("constant-sum")
     assert (check.code, check.status) == ("GL405", "fail")
-    assert "raise cam.base_radius" in check.fix
+    assert "increase cam.base_radius" in check.fix
     assert check.value == pytest.approx(0.2 * dip, rel=1e-3)
 
 

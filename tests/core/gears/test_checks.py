@@ -58,7 +58,7 @@ def test_undercut_at_its_limits(beyond, status):
 @pytest.mark.parametrize("teeth", range(6, 17))
 def test_shift_that_is_named_takes_the_undercut_away(teeth):
     check = checks("undercut", pair_of((teeth, 60)))[0]
-    named = float(re.search(r"raise its profile shift to (-?[\d.]+)", check.fix)[1])
+    named = float(re.search(r"increase its profile shift to (-?[\d.]+)", check.fix)[1])
     assert checks("undercut", pair_of((teeth, 60), (named, 0.0)))[0].status == "pass"
     assert named == pytest.approx(1.0 - teeth * SIN2 / 2.0, rel=1e-3)
 
@@ -122,6 +122,16 @@ def test_root_clearance_at_its_limits(clearance, status):
     assert [(check.code, check.status) for check in found] == [("GL205", status)] * 2
 
 
+@pytest.mark.parametrize("keys", [{"tip_shortening": "none"}, {"tool": {"addendum": 1.0625, "rounding": 0.2}}])
+def test_the_increase_that_is_named_gives_the_clearance(keys):
+    keys = {"profile_shift": [0.3, -0.1]} | (keys if "tool" in keys else {"clearance": 0.05, **keys})
+    for place, check in enumerate(design(**keys).check("root-clearance")):
+        more = float(re.fullmatch(r"increase the .+ by ([\d.]+) modules, or shorten the tips of gear .", check.fix)[1])
+        grown = {"tool__addendum": 1.0625 + more} if "tool" in keys else {"clearance": 0.05 + more}
+        assert check.status != "pass"
+        assert design(**keys | grown).check("root-clearance")[place].status == "pass"
+
+
 # Interference
 
 
@@ -134,7 +144,7 @@ def test_interference_and_sliding_without_bound():
     first, second = checks("involute-interference", pair)
     assert (first.code, first.status, second.status) == ("GL204", "pass", "fail")
     assert second.value == pytest.approx(margin, rel=1e-9)
-    assert "raise the profile shift of gear 1" in second.fix
+    assert "increase the profile shift of gear 1" in second.fix
     assert gear_quantity(pair, "specific_sliding") is None
     assert gear_quantity(pair, "contact_ratio") == pair.contact_ratio
 

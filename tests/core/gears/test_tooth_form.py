@@ -130,7 +130,7 @@ def test_no_pressure_angle_divides_by_nothing(angle: float) -> None:
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"teeth": [3, -63], "profile_shift": [-0.685, 0.37]}, "raise its profile shift or use more teeth"),
+        ({"teeth": [3, -63], "profile_shift": [-0.685, 0.37]}, "increase its profile shift or use more teeth"),
         ({"teeth": [12, 60], "profile_shift": [1.2, 0]}, "reduce its profile shift or its addendum"),
         (
             {"teeth": [12, 12], "profile_shift": [2, 2], "addendum": 0.3, "clearance": 0.1},

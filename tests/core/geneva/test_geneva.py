@@ -366,7 +366,7 @@ def test_the_clearances_of_the_fix_pass_and_are_not_nothing() -> None:
     tight = design(GIVEN, locking_clearance=0.05, slot_clearance=0.04)
     (check,) = tight.check("pin-entry")
     told = re.fullmatch(
-        r"lower locking_clearance to ([\d.]+) mm, raise slot_clearance to ([\d.]+) mm, or .*", check.fix
+        r"reduce locking_clearance to ([\d.]+) mm, increase slot_clearance to ([\d.]+) mm, or .*", check.fix
     )
     assert told
     for key, value in zip(("locking_clearance", "slot_clearance"), map(float, told.groups()), strict=True):

@@ -299,7 +299,7 @@ def test_files_that_are_refused(changes: dict, words: str) -> None:
         ({"cam__shaft_radius": 95.0}, "GL302", "fail", "main cam and its shaft: 1.01 mm"),
         ({"laws__return": {"scca": [0.5, 0.5, 0.0, 0.0]}}, "GL404", "warn", "within phase return"),
         ({"limits": {"jerk_step": 1.0}}, "GL407", "warn", "step of the swing's jerk .rad/rad.3.: 5.167"),
-        ({"spring": {"torque": 250.0}}, "GL406", "fail", "raise spring.torque .10 % speed margin"),
+        ({"spring": {"torque": 250.0}}, "GL406", "fail", "increase spring.torque .10 % speed margin"),
         ({"spring": {"torque": 300.0}}, "GL406", "warn", "10 % speed margin"),
         ({"spring": {"torque": 400.0, "reserve": 120.0}}, "GL406", "fail", "required 407.6 N m, spring 400 N m"),
     ],

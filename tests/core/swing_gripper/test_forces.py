@@ -176,7 +176,7 @@ def test_levers_serve_in_place_of_the_torque() -> None:
 def test_the_spring_that_is_recommended_holds(torque: float) -> None:
     (check,) = machine(spring={"torque": torque}).findings("gripper", "lift-off")
     assert check.status == ("fail" if torque < 287.0 else "warn")
-    words = "set spring.torque to " if check.status == "fail" else "raise spring.torque to "
+    words = "set spring.torque to " if check.status == "fail" else "increase spring.torque to "
     raised = float(check.fix.split(words)[1].split()[0])
     assert machine(spring={"torque": raised}).check_lift_off().status == "pass"
 

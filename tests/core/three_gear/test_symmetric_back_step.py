@@ -218,5 +218,5 @@ def test_the_last_number_below_each_limit_is_solved(i3: float) -> None:
 def test_a_back_step_at_its_limit_asks_for_an_endless_idler() -> None:
     for crank_angle in (3.14159265, math.nextafter(math.pi, 0.0)):
         limit = back_step_angle(-1e300, crank_angle)
-        with pytest.raises(NoSolution, match=r"set back_step\.angle below \S+ deg, or raise back_step\.crank_angle"):
+        with pytest.raises(NoSolution, match=r"set back_step\.angle below \S+ deg, or increase back_step\.crank_angle"):
             i3_for_back_step(math.nextafter(limit, 0.0), crank_angle)

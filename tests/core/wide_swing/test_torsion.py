@@ -105,7 +105,7 @@ def test_refusals() -> None:
 def test_a_rocker_too_sharp_for_the_sum_is_refused_in_the_design_s_terms() -> None:
     """Beside a pivot ratio of 1 the rocker turns over within a share of the stroke that 8192 terms do not resolve."""
     made = factory.design("wide_swing_twin_cam", command="swing", unloader__pivot_ratio=1.0001)
-    with pytest.raises(NoSolution, match=r"raise unloader.pivot_ratio, reduce swing, or omit shaft") as refusal:
+    with pytest.raises(NoSolution, match=r"increase unloader.pivot_ratio, reduce swing, or omit shaft") as refusal:
         made.raw("dynamic_coefficient")
     assert refusal.value.key == "shaft"
     assert "nodes" not in str(refusal.value)

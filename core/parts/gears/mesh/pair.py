@@ -109,14 +109,14 @@ def require_shift(pair: GearPair) -> None:
         raise NoSolution(
             f"sum of the profile shifts: {unlike(total, bound)} (limit >= {unlike(bound, total)}: no working "
             f"pressure angle of {pair.teeth[0]} and {pair.teeth[1]} teeth)",
-            fix="raise a shift or use more teeth",
+            fix="increase a shift or use more teeth",
         )
     if pair.internal and not -math.inf < total <= bound:
         raise NoSolution(
             f"sum of the profile shifts: {unlike(total, bound)} (limit <= {unlike(bound, total)}: no working "
             f"pressure angle of {pair.teeth[0]} teeth in a ring of {-pair.teeth[1]}; a positive shift thickens the "
             "teeth of a ring too)",
-            fix="lower a shift",
+            fix="reduce a shift",
         )
 
 
@@ -130,10 +130,10 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
         return NoSolution(
             f"tip radius of gear {gear + 1}: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base "
             "radius: no involute is left)",
-            fix=f"raise its profile shift or the addendum by at least {missing:.3g} modules",
+            fix=f"increase its profile shift or the addendum by at least {missing:.3g} modules",
         )
     teeth = least_ring(pair)
-    fix = f"lower its profile shift or its addendum by at least {safely_above(missing, 3)} modules"
+    fix = f"reduce its profile shift or its addendum by at least {safely_above(missing, 3)} modules"
     return NoSolution(
         f"tip radius of the ring: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base radius: no "
         "involute is left)",
@@ -431,7 +431,7 @@ class GearPair(PitchPair):
             raise NoSolution(
                 f"tip of gear {2 - gear} beyond the base tangent point of gear {gear + 1}: "
                 f"{short(-self.interference_margin[1 - gear])} mm (limit < 0 mm: sliding is infinite there)",
-                fix="lower its profile shift or the addendum, or use more teeth",
+                fix="reduce its profile shift or the addendum, or use more teeth",
             )
         return self._sliding_at_root(gear)
 

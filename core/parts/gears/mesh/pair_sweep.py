@@ -136,7 +136,7 @@ def inverse_involute(v: ArrayLike) -> Reals:
         worst = values.flat[int(np.argmax(~((values >= 0.0) & (values < math.inf))))]
         raise NoSolution(
             f"involute of the pressure angle: {worst:.4g} (limit >= 0)",
-            fix="raise the sum of the profile shifts, or the centre distance",
+            fix="increase the sum of the profile shifts, or the centre distance",
         )
     if values.max() <= _LAST:
         return _in_blocks(_inverse_block, values, 4)

@@ -68,7 +68,7 @@ class ShapedRing:
             return
         if self._spare(0.0) < 0.0:
             base = self.mesh.base_radius[0]
-            what, way = ("pointed", "lower") if self.cutter_tip > base else ("without an involute", "raise")
+            what, way = ("pointed", "reduce") if self.cutter_tip > base else ("without an involute", "increase")
             text = f"the teeth of the cutter are {what}: {way} its addendum or its shift"
             raise NoSolution(text, key="cutter.addendum")
         most = bracketed_root(self._spare, 0.0, self.cutter.rounding)
@@ -86,7 +86,7 @@ class ShapedRing:
                 f"sum of the profile shifts of cutter and ring: {unlike(total, bound)} (limit <= "
                 f"{unlike(bound, total)}: no working pressure angle of the cutter in the ring)",
                 key="cutter.shift",
-                fix="lower cutter.shift or the profile shift of the ring",
+                fix="reduce cutter.shift or the profile shift of the ring",
             )
 
     def _spare(self, rounding: float) -> float:

@@ -74,7 +74,7 @@ class RackProfile:
             raise NoSolution("the teeth of the rack are pointed", fix=f"keep its addendum below {most} modules")
         if not self.tool.straight_end(self.pressure_angle) + self.height > 0.0:
             raise NoSolution(
-                "the rounding at the root of the rack leaves no flank", fix="lower the rounding of its tool"
+                "the rounding at the root of the rack leaves no flank", fix="reduce the rounding of its tool"
             )
 
     @property

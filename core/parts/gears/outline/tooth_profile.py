@@ -79,13 +79,11 @@ class ToothProfile:
             )
         if not self._root > 0.0:
             raise NoSolution(
-                (f"a gear of {self.teeth} teeth with the profile shift {short(self.shift)} has no root circle left"),
-                fix=(
-                    f"use at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or raise the shift"
-                ),
+                f"a gear of {self.teeth} teeth with the profile shift {short(self.shift)} has no root circle left",
+                fix=f"use at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or a larger shift",
             )
         if not self._form < self._top:
-            remedy = "raise" if self.undercut and not self._top < self.tip_radius / self.module else "lower"
+            remedy = "increase" if self.undercut and not self._top < self.tip_radius / self.module else "reduce"
             raise NoSolution(
                 f"start of the involute of a gear of {self.teeth} teeth: radius "
                 f"{unlike(self.form_radius, self.outer_radius)} mm (limit < "

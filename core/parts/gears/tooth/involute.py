@@ -75,7 +75,7 @@ def inverse_involute(v: float) -> float:
     if not 0.0 <= v < math.inf:
         raise NoSolution(
             f"involute of the pressure angle: {v:.4g} (limit >= 0)",
-            fix="raise the sum of the profile shifts, or the centre distance",
+            fix="increase the sum of the profile shifts, or the centre distance",
         )
     if v == 0.0:
         return 0.0

@@ -154,9 +154,9 @@ def test_without_its_cutter_a_ring_has_sharp_corners_and_flanks_that_may_meet() 
     ("keys", "words"),
     [
         ({"rounding": 1.0}, r"limit <= 0\.3728 modules"),
-        ({"shift": 2.0}, "pointed: lower its addendum"),
-        ({"addendum": 0.1, "shift": -2.0}, "without an involute: raise its addendum"),
-        ({"teeth": 66, "shift": 0.4}, r"shifts of cutter and ring: 0\.\d+ \(limit <= 0\.\d+: .*lower cutter\.shift"),
+        ({"shift": 2.0}, "pointed: reduce its addendum"),
+        ({"addendum": 0.1, "shift": -2.0}, "without an involute: increase its addendum"),
+        ({"teeth": 66, "shift": 0.4}, r"shifts of cutter and ring: 0\.\d+ \(limit <= 0\.\d+: .*reduce cutter\.shift"),
     ],
 )
 def test_cutters_that_cannot_be(keys: dict[str, float], words: str) -> None:

@@ -223,12 +223,12 @@ def test_failures_name_the_limit(arguments, words):
 
 
 def test_a_gear_without_involute_is_refused():
-    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* raise"):
+    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* increase"):
         ToothProfile(module=1.0, teeth=12, shift=0.0, pressure_angle=ALPHA, tip_radius=5.65)
-    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* lower"):
+    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* reduce"):
         profile(12, 4.0)
     # pushed apart, the tip shortened into the root: less shift is the way out
-    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 19 teeth: .* lower"):
+    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 19 teeth: .* reduce"):
         ToothProfile.of(GearPair(module=3.0, teeth=(19, 47), given_distance=120.0), 0)
 
 
