@@ -135,7 +135,10 @@ def readable_rows(
     columns = [_of_column(column, unit, digits) for column, unit in zip(by_column, table.units, strict=True)]
     if digits is None and "unit" in table.columns:
         units = by_column[table.columns.index("unit")]
-        columns = [_of_lines(column, units) for column in by_column]
+        columns = [
+            _of_lines(column, units) if unit == "1" else kept
+            for column, unit, kept in zip(by_column, table.units, columns, strict=True)
+        ]
     return [list(row) for row in zip(*columns, strict=True)]
 
 

@@ -62,6 +62,7 @@ class Shift:
             roller on its cam, away from the cam, or "arm": along the arm of that roller, away from the origin of its
             link
         turned : bool - they turn about the origin of the link, counter-clockwise
+        about : complex or None [mm] - another point of the link about which they turn, in its coordinates
     """
 
     link: str
@@ -69,6 +70,7 @@ class Shift:
     way: complex = 1.0
     frame: Literal["link", "frame", "normal", "arm"] = "link"
     turned: bool = False
+    about: complex | None = None
 
     def scaled(self, factor: float) -> Shift:
         """The same shift per another unit of the error."""
@@ -146,7 +148,10 @@ class Dual:
     def gain(self, shift: Shift) -> Reals:
         """Error of the output per unit of an error of one direction."""
         if shift.turned:
-            return np.asarray(self.force(shift.link, shift.joints)[1] * complex(shift.way).real)
+            force, moment = self.force(shift.link, shift.joints)
+            if shift.about is not None:
+                moment = moment - cross(shift.about * unit_of(self.mechanism.link(shift.link)), force)
+            return np.asarray(moment * complex(shift.way).real)
         if shift.frame == "normal":
             pressed = sum(self.forces[name][0] for name in shift.joints)
             on_roller = all(each.second == shift.link for each in joints_of(self.touching, shift.link, shift.joints))
@@ -478,8 +483,11 @@ class _Moved:
         if shifts is None:
             return self.place[link] + arm * spun
         # on the link the element is turned first, about its origin, and then moved as it lies
-        askew = _spin(sum(complex(shift.way).real * error for shift, error in shifts if shift.turned))
+        turns = [(shift.about, complex(shift.way).real * error) for shift, error in shifts if shift.turned]
+        askew = _spin(sum(turn for about, turn in turns if about is None))
         moved: Any = arm * askew
+        for about, turn in turns:
+            moved = moved if about is None else moved + (arm - about * unit_of(body)) * _spin(turn)
         beside: Any = 0.0
         for shift, error in (each for each in shifts if not each[0].turned):
             if shift.frame == "link":
@@ -534,7 +542,7 @@ class _Moved:
     def _contact(self, joint: Contact | SharedContact, cam: str) -> Any:
         """A roller off the pitch curve of a cam, along its normal."""
         missed = self.of(joint.second, joint.name, joint.at) - self.of(cam, joint.name, joint.at)
-        missed = missed * np.conj(1.0 + self.spun[cam])  # as the cam sees it
+        missed = missed * np.conj(1.0 + _spin(self.turned(cam, joint.name)))  # as the cam sees it
         along = dot(1j * joint.normal, missed)
         return dot(joint.normal, missed) + 0.5 * joint.curvature * along * along
 

@@ -29,7 +29,7 @@ from gearlink.core.numerics.roots_sweep import zeros
 from gearlink.core.studies.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
 from gearlink.core.studies.loads.names import RPM
 from gearlink.core.studies.movable import Errors, Movable
-from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted, tightened
+from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, budget_table, counted, tightened
 from gearlink.core.studies.tolerance.correlation import coordinate_root, of_sizes, together
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import is_shared, of_replications, replication, rounded_up
@@ -463,14 +463,8 @@ class RegisterDesign(Design):
         both = list(zip(SIGNS, self.budgets, strict=True))
         if are_alike(*self.budgets):
             both = both[:1]
-        rows = [
-            (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share, row.mean)
-            for sign, one in both
-            for row in sorted(one.rows, key=lambda row: -row.share)
-        ]
-        units = ("1", "1", "1", "mm", "mm", "mm", "1", "mm")
-        columns = ("torque_sign", "source", "gain", "limit", "worst", "sigma", "share", "mean")
-        return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
+        rows = [(sign, row) for sign, one in both for row in sorted(one.rows, key=lambda row: -row.share)]
+        return budget_table("torque_sign", rows)
 
     def table_cycle(self, samples: int | None = None) -> Table:
         """Absolute error over the whole cycle, for either torque sign; the band by rss, whatever the method."""
@@ -570,7 +564,8 @@ def are_alike(one: Budget, other: Budget) -> bool:
 def contribution(source: Scatter, gain: Any) -> Contribution:
     """A source with its gain; what has a direction is 0 on average."""
     mean = source.law.moments()[0] if source.coordinates == 1 else 0.0
-    return Contribution(source.key, np.asarray(gain), source.limit, source.sigma, mean, keeps=source.keeps_limit)
+    limit, sigma, unit = source.limit, source.sigma, source.unit
+    return Contribution(source.key, np.asarray(gain), limit, sigma, mean, keeps=source.keeps_limit, unit=unit)
 
 
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:

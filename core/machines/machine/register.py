@@ -14,7 +14,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.machine.design import Machine
 from gearlink.core.machines.machine.speeds import speed_changes
-from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, tightened
+from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, budget_table, tightened
 
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.loads import MachineLoads
@@ -199,17 +199,11 @@ class RegisterOfMachine(Design):
 
     def table_budget(self, _samples: int | None = None) -> Table:
         """Every source of every member, the maximum first; gains and shares are those of the whole."""
-        sources = ((name, one.source) for name, each in self.shares.items() for one in each.parts)
-        rows = sorted(
-            (
-                (*source, row.gain, row.limit, row.worst, row.sigma, row.share, row.mean)
-                for source, row in zip(sources, self.whole.rows, strict=True)
-            ),
-            key=lambda row: -row[6],
-        )
-        columns = ("member", "source", "gain", "limit", "worst", "sigma", "share", "mean")
-        units = ("1", "1", "1", "mm", "mm", "mm", "1", "mm")
-        return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
+        sources = [(name, one.source) for name, each in self.shares.items() for one in each.parts]
+        rows = [
+            (name, replace(row, source=source)) for (name, source), row in zip(sources, self.whole.rows, strict=True)
+        ]
+        return budget_table("member", sorted(rows, key=lambda row: -row[1].share))
 
     def check_register_budget(self) -> Iterator[Check]:
         """GL520 where the file names what may be lost."""

@@ -163,14 +163,25 @@ def errors(design: PlanarMechanism, _mechanism: Mechanism) -> Movable:
         for name, joint in group.items():
             kind, body = "slides" if group is structure.slides else "slots", structure.names[joint.line.body]
             sizes |= {f"{kind}.{name}.through[{k}]": (Shift(body, (name,), way),) for k, way in enumerate(_AXES)}
+            sizes[f"{kind}.{name}.direction"] = (_turned(body, name, 1, joint.line.through),)
+            if joint.lean is not None:
+                on_line = structure.names[joint.line.other]
+                sizes[f"{kind}.{name}.angle"] = (_turned(on_line, name, -1, joint.line.point),)
     profiles = {f"cams.{name}.profile": 0.0 for name in structure.cams}
     for name, cam in structure.cams.items():
-        outwards = (Shift(structure.names[cam.cam], (name,), 1.0, "normal"),)
+        link = structure.names[cam.cam]
+        outwards = (Shift(link, (name,), 1.0, "normal"),)
         sizes[f"cams.{name}.profile"] = outwards
+        sizes[f"cams.{name}.phase"] = (_turned(link, name, cam.sense, cam.bore),)
         if cam.given.face is None:
             sizes[f"cams.{name}.roller_radius"] = outwards
     gears = {name: gear for mesh in structure.spec.meshes for name, gear in _gears(structure, mesh)}
     return Movable(sizes, others=profiles, gears=gears, own=_own(design))
+
+
+def _turned(body: str, joint: str, sense: int, about: complex) -> Shift:
+    """The element of a joint on a body, turned about a point of it by each degree of a key."""
+    return Shift(body, (joint,), sense * math.radians(1.0), turned=True, about=about)
 
 
 def _sizes(structure: Structure) -> Iterator[tuple[str, str, str, complex]]:

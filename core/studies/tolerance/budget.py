@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.base.report import Table
 from gearlink.core.numerics.arrays import Reals
 
 _COVERED = 3.0  # 99.73 % of a normal error
@@ -31,6 +32,7 @@ class Contribution:
         mean : float [mm] - by how much all machines differ from nominal, of a real gain
         relative : bool - the error at the start has the same cause as that later on, which an uneven profile's has not
         keeps : bool - its parts lie within `limit`, at least 99.73 % of them
+        unit : str - of `limit`, `sigma` and `mean` where that is not mm: "deg" of an angle, whose gain is per degree
     """
 
     source: str
@@ -40,6 +42,7 @@ class Contribution:
     mean: float = 0.0
     relative: bool = True
     keeps: bool = True
+    unit: str = "mm"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +56,27 @@ class Row:
     sigma: float
     share: float
     mean: float
+    unit: str = "mm"
+
+    def cells(self) -> tuple[float | str, ...]:
+        """Source, gain, limit, its unit, worst, sigma, share, mean."""
+        return self.source, self.gain, self.limit, self.unit, self.worst, self.sigma, self.share, self.mean
+
+
+def budget_table(before: str, rows: Sequence[tuple[float | str, Row]]) -> Table:
+    """Sources where the whole is worst, after one column; with units of the limits where some are angles.
+
+    Parameters
+        before : str - name of the first column
+        rows : its entries, and the sources
+    """
+    columns = [before, "source", "gain", "limit", "unit", "worst", "sigma", "share", "mean"]
+    units = ["1", "1", "1", "1", "1", "mm", "mm", "1", "mm"]
+    data = list(zip(*((first, *row.cells()) for first, row in rows), strict=True))
+    if all(row.unit == "mm" for _, row in rows):
+        units[3] = "mm"
+        del columns[4], units[4], data[4]
+    return Table("budget", tuple(columns), tuple(units), tuple(data))
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +151,7 @@ def budget(
             float(spread[at] * one.sigma),
             float(square[at]) / whole if whole > 0.0 else 0.0,
             float(mean[at]) + 0.0,  # no -0
+            one.unit,
         )
         for one, magnitude, spread, square, mean in zip(contributions, magnitudes, spreads, squares, means, strict=True)
     )

@@ -88,6 +88,7 @@ class Scatter:
         kind : str - "size" of the file, "center", "pin" (a vector), "gear" (an eccentricity)
         nominal : float - of a size or centre distance, in the unit of the file
         law : Law - of the deviation; of a pin's diametral clearance; of a gear's eccentricity
+        unit : str - of the deviation: "deg" of an angle
     """
 
     key: str
@@ -95,6 +96,7 @@ class Scatter:
     nominal: float
     law: Law
     entry: ToleranceSource
+    unit: str = "mm"
 
     @property
     def coordinates(self) -> int:
@@ -294,7 +296,8 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
         message = f"{what} needs the length of a part, but {key} is in {unit}\ngive plus_minus or limits"
         raise _no("GL173", message, (*place, what))
     lower, upper = _limits(entry, nominal, place)
-    return Scatter(key, "center" if group == "centers" else "size", nominal, _law(entry, lower, upper, place), entry)
+    kind = "center" if group == "centers" else "size"
+    return Scatter(key, kind, nominal, _law(entry, lower, upper, place), entry, unit or "mm")
 
 
 def _near(key: str, spec: Any) -> str:

@@ -50,12 +50,19 @@ CASES: dict[str, tuple[str, ...]] = {
     ),
     "planar_bed_chain": (
         *("links.gear2[2]", "links.CDE.E[0]", "links.CDE.E[1]", "links.EF[2]", "frame.D[0]"),
-        *("slides.guide_carriage.through[0]", "pins.D"),
+        *("slides.guide_carriage.through[0]", "slides.guide_carriage.direction", "pins.D"),
     ),
     "planar_quick_return": (
         *("links.crank[2]", "frame.C[0]", "frame.C[1]", "links.rod[2]", "links.lever.D[0]"),
-        *("slots.slot.through[1]", "slides.guide.through[0]", "pins.D"),
+        *(
+            "slots.slot.through[1]",
+            "slides.guide.through[0]",
+            "slots.slot.direction",
+            "slides.guide.direction",
+            "pins.D",
+        ),
     ),
+    "planar_cam": ("cams.cam.phase", "slides.guide.direction", "slides.guide.angle", "links.rod[2]", "pins.R"),
 }
 REMADE = {
     "two_gear_drag_link": LINKS[1:],
@@ -65,8 +72,9 @@ REMADE = {
     "geared_six_bar": ("links.coupler_2", "links.coupler_3", "links.output", "links.frame"),
     "planar_watt": CASES["planar_watt"][:5] + CASES["planar_watt"][6:],
     "planar_five_bar": CASES["planar_five_bar"][:5],
-    "planar_bed_chain": CASES["planar_bed_chain"][:6],
-    "planar_quick_return": CASES["planar_quick_return"][:7],
+    "planar_bed_chain": CASES["planar_bed_chain"][:7],
+    "planar_quick_return": CASES["planar_quick_return"][:9],
+    "planar_cam": CASES["planar_cam"][:4],
     "five_bar_path": CASES["five_bar_path"][:4] + CASES["five_bar_path"][6:8],
 }
 """Sizes that change nothing but themselves, so that a design may be made anew with another one."""
@@ -81,6 +89,7 @@ WITHOUT_MESH = (
     "loaded_cycloidal",
     "planar_watt",
     "planar_quick_return",
+    "planar_cam",
 )
 SLOW, FOLLOWED = pytest.mark.slow, ("planar_watt", "planar_five_bar", "planar_bed_chain", "planar_quick_return")
 DEAR = ("five_bar_function", "planar_bed_chain")
@@ -137,6 +146,17 @@ def test_gains_are_the_changes_of_designs_made_anew(name: str) -> None:
         found = (places[0] - places[1]) / (2.0 * step)
         # a design counts its output from its own start: the changes over the motion are compared
         assert found - found[0] == pytest.approx(one.gain - one.gain[0], abs=2e-8), one.source
+
+
+def test_limits_of_angles_are_not_in_millimetres() -> None:
+    """The limit of a direction, in degrees, stood below mm; its gain is per degree."""
+    table = register("planar_quick_return", ("slots.slot.direction", "frame.C[0]")).table("budget")
+    units = dict(zip(table["source"].tolist(), table["unit"].tolist(), strict=True))
+    assert units == {"slots.slot.direction": "deg", "frame.C[0]": "mm"}
+    assert dict(zip(table.columns, table.units, strict=True))["limit"] == "1"
+    lengths = register("planar_quick_return", ("frame.C[0]",)).table("budget")
+    assert "unit" not in lengths.columns
+    assert dict(zip(lengths.columns, lengths.units, strict=True))["limit"] == "mm"
 
 
 def test_an_output_that_is_a_pin_moves_on_its_link_and_with_the_chain() -> None:
