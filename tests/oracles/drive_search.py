@@ -1,4 +1,4 @@
-"""Standstills, extremes and dwell of many drives by a dense search over the turn and bisection, in 80-bit numbers."""
+"""Standstills, extremes and dwell of many drives by a dense search of a revolution and bisection, in 80-bit numbers."""
 
 from __future__ import annotations
 

@@ -204,7 +204,7 @@ def take_extremes(worst: Worst, turn: Turn, design: Any, name: str = "") -> None
 
 @pytest.mark.parametrize("count", FEW_KEYS)
 def test_key_quantities_of_whole_drives(count: int) -> None:
-    """Number and places of standstills, back-step, dwell and extremes, by a dense search over the turn.
+    """Number and places of standstills, back-step, dwell and extremes, by a dense search over the revolution.
 
     Within 1e-9 of a momentary dwell the program has one standstill by its own rule; there the count is held to that.
     """

@@ -1,4 +1,4 @@
-"""Scene and sheet of a hypocycloid dwell: gears, curve, rod and slider to scale; the slider over a turn, and its dwell.
+"""Scene and sheet of a hypocycloid dwell: gears, curve, rod and slider; the slider over a revolution, its dwell.
 
 The scene is one revolution of the carrier.
 """

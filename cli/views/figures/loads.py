@@ -1,4 +1,4 @@
-"""Sheets of the loads of any design: torque over the turn, reflected inertia, joint forces, teeth, shaking force.
+"""Sheets of the loads of any design: torque over the revolution, reflected inertia, joint forces, teeth, shaking force.
 
 The sheet of forces has on one A4 the mechanism with force arrows, the torque, a small panel for each joint and mesh.
 """
@@ -256,7 +256,7 @@ class _Layout(NamedTuple):
 
 
 def draw(design: Any) -> Figure:
-    """The sheet of `loads` on A4, of many panels on A3: mechanism, curves over the turn, loads of the pins."""
+    """The sheet of `loads` on A4, of many panels on A3: mechanism, curves over the revolution, loads of the pins."""
     if design.kind == "wide-swing-cam" and not design.whole and not design.locked:
         return stroke_sheet(design)
     curves, pins, cams = _panels_of(design)

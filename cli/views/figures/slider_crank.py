@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def _racks(design: SliderCrankDesign, here: Positions, whole: Reals) -> list[Part]:
     """Pinion and both racks, as their pitch circles and lines with a back.
 
-    whole : (N,) array [mm] - depths of the slider over the turn
+    whole : (N,) array [mm] - depths of the slider over the revolution
     """
     drive = design.rack_drive
     if drive is None:

@@ -277,7 +277,7 @@ class Grooved(RealSpeed, Design):
         """The groove.
 
         Raises
-            NoSolution - where the drive does not close over the turn
+            NoSolution - where the drive does not close over the revolution
         """
         self.require_closed()
         return Groove(self.path, self.spec.roller_radius, self.output_motion.joints)

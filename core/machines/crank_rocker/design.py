@@ -181,7 +181,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Least transmission angle over the turn or the range [rad]: at an end, or with the crank on the frame's line.
+        """Least transmission angle over a revolution or the range [rad]: at an end, or with the crank on the frame.
 
         Source
             |BD| runs one way between crank angles 0 and 180 deg
@@ -197,7 +197,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     @cached_property
     def speed_turnings(self) -> list[Turning]:
-        """Extremes of the speed ratio over the turn, or over the range with its ends."""
+        """Extremes of the speed ratio over the revolution, or over the range with its ends."""
         if self.crank_range is None:
             return self.turning.speed_turnings
         return self._within("speed_ratio", "rocker_velocity", 1)
@@ -276,7 +276,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303."""
-        over = "the turn" if self.crank_range is None else "the range"
+        over = "the revolution" if self.crank_range is None else "the range"
         yield transmission_check(
             self.min_transmission_angle,
             self.spec.limits.transmission_angle,

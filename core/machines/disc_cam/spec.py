@@ -225,7 +225,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
 
     kind: Literal["disc-cam"]
     motion: FollowerMotion | None = Field(  # type: ignore[assignment]
-        None, description="lift over the turn (mm; oscillating follower: deg): segments with laws, or a table"
+        None, description="lift over the revolution (mm; oscillating follower: deg): segments with laws, or a table"
     )
     profile: CamProfile | None = Field(
         None, description="arcs of the cam, from which its motion and radius follow, instead of motion"

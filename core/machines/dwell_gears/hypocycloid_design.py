@@ -143,7 +143,7 @@ class HypocycloidSlider:
 
     @property
     def max_rod_angle(self) -> float:
-        """Maximum angle of the rod to the slide line over the turn [rad]."""
+        """Maximum angle of the rod to the slide line over the revolution [rad]."""
         return math.asin(self.widest_offset / self.rod)
 
     @cached_property
@@ -847,7 +847,7 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Minimum angle between the rod and the normal of the slide line over the turn [rad]."""
+        """Minimum angle between the rod and the normal of the slide line over the revolution [rad]."""
         return 0.5 * math.pi - self.slider.max_rod_angle
 
     @cached_property

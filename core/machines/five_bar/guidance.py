@@ -121,7 +121,7 @@ class Guidance:
 
     @property
     def quality(self) -> tuple[bool, bool, bool, bool, float]:
-        """Closes over the turn, one assembly, poses in order, transmission angle held; then that angle [rad]."""
+        """Closes over the revolution, one assembly, poses in order, transmission angle held; then that angle [rad]."""
         try:
             least = self.bar.min_transmission_angle()[0]
         except NoSolution:

@@ -595,17 +595,17 @@ class PressMotion:
 
     @cached_property
     def min_transmission_angle_bed(self) -> float:
-        """Minimum transmission angle of ABCD over the turn [rad]."""
+        """Minimum transmission angle of ABCD over the revolution [rad]."""
         return self.bed.linkage.min_transmission_angle()
 
     @cached_property
     def min_transmission_angle_cylinder(self) -> float:
-        """Minimum transmission angle of GHMN over the turn [rad]."""
+        """Minimum transmission angle of GHMN over the revolution [rad]."""
         return self.cylinder.linkage.min_transmission_angle()
 
     @cached_property
     def min_rod_angle(self) -> float:
-        """Minimum angle between the rod EF and the normal of the slide line over the turn [rad]."""
+        """Minimum angle between the rod EF and the normal of the slide line over the revolution [rad]."""
         return math.acos((self.slider_crank.crank_length + abs(self.spec.bed.offset)) / self.spec.bed.rod)
 
     @cached_property
@@ -933,7 +933,7 @@ class PressCams(DiscCams):
 
     @property
     def follows(self) -> bool:
-        """Whether the follower's lift exists over the turn."""
+        """Whether the follower's lift exists over the revolution."""
         try:
             return bool(self.follower.segments)
         except NoSolution:

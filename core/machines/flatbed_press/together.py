@@ -61,7 +61,7 @@ def _as_one(followers: Sequence[Compensation]) -> Compensation:
 
 
 class _Lift:
-    """The lift of many followers over one turn, a row for each."""
+    """The lift of many followers over one revolution, a row for each."""
 
     def __init__(self, followers: Sequence[Compensation]) -> None:
         many = _as_one(followers)

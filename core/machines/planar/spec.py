@@ -126,7 +126,7 @@ class CamPair(Spec):
     follower: Name = Field(description="the link that the cam moves; it turns or slides on `on`")
     point: Name = Field(description="of the follower: centre of its roller, or a point of its flat face")
     motion: FollowerMotion = Field(
-        description="lift over the turn of the cam, away from the cam; of a follower that turns in deg"
+        description="lift over the revolution of the cam, away from the cam; of a follower that turns in deg"
     )
     roller_radius: Length | None = Field(None, description="radius of the roller")
     face: Direction | None = Field(

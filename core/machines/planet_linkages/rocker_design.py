@@ -353,7 +353,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Minimum transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the revolution [rad]."""
         return self.linkage.min_transmission_angle()
 
     @cached_property

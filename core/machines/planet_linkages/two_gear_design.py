@@ -328,7 +328,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Minimum transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the revolution [rad]."""
         return self.linkage.min_transmission_angle()
 
     @cached_property

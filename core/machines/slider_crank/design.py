@@ -245,7 +245,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Minimum angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
+        """Minimum angle of the rod to the normal of the slide line over a revolution [rad]: 90 deg less the rod's."""
         part = self.slider_crank
         return part.fn.acos((self.crank_length + abs(part.offset)) / part.rod)
 

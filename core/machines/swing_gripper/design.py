@@ -762,7 +762,7 @@ class GripperCams(DiscCams):
 
     @cached_property
     def center_remedy(self) -> Callable[[float], str]:
-        """In words, whether cams can stand anywhere that keep a pressure angle [deg] over the turn.
+        """In words, whether cams can stand anywhere that keep a pressure angle [deg] over the revolution.
 
         Sought once for each limit, however many checks tell of it.
         """
@@ -1245,7 +1245,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     # Tables and checks
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Angles, velocities and accelerations of both rockers over the turn."""
+        """Angles, velocities and accelerations of both rockers over the revolution."""
         from gearlink.core.machines.swing_gripper.mechanism import swing, without_cams
         from gearlink.core.mechanism.courses import Shown, columns_of, turned
 
@@ -1271,7 +1271,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         return Table.of("newton", columns)
 
     def table_forces(self, samples: int | None = None) -> Table:
-        """Inertia and contact torques and normal forces over the turn."""
+        """Inertia and contact torques and normal forces over the revolution."""
         from gearlink.core.machines.swing_gripper.forces import contact_torques
 
         degrees, spring = turn_degrees(samples), self.closure.closing_torque
@@ -1437,7 +1437,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
             yield _gap_check(self, self.spec.release)
 
     def check_pressure_angle(self) -> Iterator[Check]:
-        """GL401 for all cams over the turn, and a warning for the phase accelerate; it fails where no cam can be."""
+        """GL401 for all cams over a revolution; a warning for the phase accelerate; it fails where no cam can be."""
         limit = self.spec.limits.pressure_angle
         if self.spec.fingers is not None:
             fix = "lengthen fingers.open.over and fingers.close.over, or fingers.lever"

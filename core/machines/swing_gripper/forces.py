@@ -85,7 +85,7 @@ def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masse
 
 @dataclass(frozen=True)
 class RockerInertia:
-    """Inertia torques of both rockers over the turn.
+    """Inertia torques of both rockers over the revolution.
 
     Parameters
         shaft_speed : float [rad/s]

@@ -99,7 +99,7 @@ class LawOfEach:
 
 @dataclass(frozen=True)
 class SixPhaseLaw:
-    """Swing angle over the turn; of many laws, whose numbers are columns, a row for each.
+    """Swing angle over the revolution; of many laws, whose numbers are columns, a row for each.
 
     Parameters
         lengths : six floats [deg] - phase lengths that add up to 360; degrees, so that joints on whole degrees

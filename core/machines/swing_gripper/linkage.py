@@ -163,7 +163,7 @@ class GripperLinkage:
         """Minimum angle between CD and ED (at D) and between AC and CD (at C), folded [rad], and the swing [rad] there.
 
         Notes
-            Sought over the swing, not over the turn: every row of the motion lies within it, its very ends among them.
+            Sought over the swing, not over a revolution: every row of the motion lies within it, its ends too.
         """
         both = kept_last(lambda swing: self.transmission(self.local_output(swing)))
         total = self.law.total_swing

@@ -274,7 +274,7 @@ class Motion:
 
     @cached_property
     def newton_agreement(self) -> float:
-        """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
+        """Largest difference of closed form and Newton-Raphson over the revolution [rad]."""
         found: float = largest(self.loop.deviation)
         return found
 

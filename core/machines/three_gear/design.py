@@ -284,7 +284,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
 
     @cached_property
     def output(self) -> Output:
-        """The output over a turn: in closed form where the links are in proportion to the teeth, else by roots."""
+        """The output over a revolution: in closed form where the links are proportional to the teeth, else by roots."""
         if self.task is not None:
             return self.task.output(self.linkage, self.train)
         return (ByRoots if self.off_center else Output)(self.linkage, self.train)
@@ -377,7 +377,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
 
     @cached_property
     def min_transmission_angle(self) -> float:
-        """Minimum transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the revolution [rad]."""
         return self.linkage.min_transmission_angle()
 
     @cached_property
@@ -403,7 +403,7 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         return motion_table("motion", self, shown, samples)
 
     def table_links(self, samples: int | None = None) -> Table:
-        """Angle, speed, acceleration and jerk of every link and gear over a turn, and the pole P15 on the line AD."""
+        """Angle, speed, acceleration, jerk of every link and gear over a revolution, and the pole P15 on AD."""
         from gearlink.core.mechanism.courses import Shown, all_rates, motion_table, turned
         from gearlink.core.mechanism.motion import Course
 

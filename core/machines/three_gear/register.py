@@ -632,7 +632,7 @@ class DriveSamples:
 
     @cached_property
     def min_transmission_angle(self) -> Reals:
-        """Minimum transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the revolution [rad]."""
         return least_transmission_angle(*self.lengths)
 
     @cached_property
@@ -644,7 +644,7 @@ class DriveSamples:
         return np.abs(frame - crank) + (nominal - abs(links.frame - links.crank))
 
     def distances(self) -> dict[str, tuple[Reals, Reals]]:
-        """Minimum and maximum distance of the axes over the turn [mm], by their ends."""
+        """Minimum and maximum distance of the axes over the revolution [mm], by their ends."""
         crank, coupler, rocker, frame = self.lengths
         # Of the triangle A-B-C or A-D-C the one whose angle at the middle joint turns fully.
         one, other = (coupler, crank) if self.nominal.linkage.kind() == "crank-rocker" else (rocker, frame)

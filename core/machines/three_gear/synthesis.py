@@ -249,7 +249,7 @@ def smallest_idler(
         NoSolution - with key `gears.idler` where no idler keeps both limits: which one stands in the way and what is
             reached at best; where no idler gives a design at all, the refusal of the last one as it came
     Notes
-        Closed forms and no search over the turn: all 384 idlers cost about 5 ms.
+        Closed forms and no search over the revolution: all 384 idlers cost about 5 ms.
     Example
         >>> from gearlink.core.machines.three_gear.momentary import momentary_linkage
         >>> smallest_idler(lambda z: momentary_linkage(25.0, 1.25 * z, 75.0, 16.0), 20, 60, 2.5,

@@ -77,7 +77,7 @@ class GearTrain:
 
 
 def gear_gap(linkage: FourBar, train: GearTrain, module: float, addendum: float = 1.0) -> float:
-    """Gap between the tip circles of crank gear and output gear where they come nearest over the turn.
+    """Gap between the tip circles of crank gear and output gear where they come nearest over the revolution.
 
     s15 = |d - a| - m (z1 + z5)/2 - 2 h_a* m
 

@@ -425,7 +425,7 @@ class WholeCycle:
     # Tables
 
     def table(self, samples: int | None = None) -> Table:
-        """Both contours over one turn of the cam; empty where the roller at mid-swing has cut the profile away."""
+        """Both contours over a revolution of the cam; empty where the roller at mid-swing has cut the profile away."""
         count = samples or 360
         rows = row_numbers(samples, count)
         t = 2.0 * math.pi * np.arange(rows.start, rows.stop) / count

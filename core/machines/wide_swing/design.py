@@ -144,7 +144,7 @@ class ParallelShafts:
 
     @cached_property
     def plane_gap(self) -> float:
-        """Least room in one plane [mm]: circles where they clear, else the contours over a turn; and each roller
+        """Least room in one plane [mm]: circles where they clear, else the contours over a revolution; and each roller
         beside the other cam."""
         gap = self.cam_gap
         if gap < 0.0 and self.design.spec.cycle is not None:

@@ -96,7 +96,7 @@ class OfFollowerKeys(Spec):
 
     speed: Speed | None = Field(None, description="speed of the cam")
     motion: FollowerMotion = Field(
-        description="lift over the turn (mm; oscillating follower: deg): segments with laws, or a table"
+        description="lift over the revolution (mm; oscillating follower: deg): segments with laws, or a table"
     )
     initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
 

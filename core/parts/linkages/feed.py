@@ -325,7 +325,7 @@ def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: fl
 
 
 def _next_top(extremes: Sequence[Turning], place: float, way: float) -> Turning | None:
-    """The next turning one way, its place counted on over the turn."""
+    """The next turning one way, its place counted on over the revolution."""
     others = [each for each in extremes if each.place != place]
     if not others:
         return None

@@ -104,7 +104,7 @@ def zeros_over_turn(f: Function, grid: list[float] = GRID) -> list[float]:
 
 
 def turnings(speed: Function, acceleration: Function, grid: list[float] = GRID) -> list[Turning]:
-    """Extremes of the speed ratio over the turn, by the zeros of its derivative.
+    """Extremes of the speed ratio over the revolution, by the zeros of its derivative.
 
     Parameters
         speed, acceleration : functions of the crank angle [rad], the second the derivative of the first

@@ -45,7 +45,7 @@ ODD = {
     "links: {crank: 2500000.0, frame: 40000000.0}}",
     "drag link with a collision": "{gears: {module: 2.0, crank: 10, idler: 60, output: 40}, "
     "links: {crank: 80.0, frame: 35.0}}",
-    "dwell over the turn's end": "{gears: {module: 2.5, crank: 20, idler: 20, output: 60}, assembly: -1, "
+    "dwell over the revolution's end": "{gears: {module: 2.5, crank: 20, idler: 20, output: 60}, assembly: -1, "
     "dwell_tolerance: 0.4, links: {crank: 18.0, frame: 121.4}}",
 }
 

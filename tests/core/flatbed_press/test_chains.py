@@ -3,7 +3,7 @@
 
 Tolerances
 * reference cases: 1e-12 of the maximum value of the column; they are printed to 17 digits.
-* oracle (tests/oracles/press.py): 2e-14 of the maximum magnitude over the turn. Measured: 4e-16 for travels, 2e-15
+* oracle (tests/oracles/press.py): 2e-14 of the maximum magnitude over a revolution. Measured: 4e-16 for travels, 2e-15
   for their derivatives; the minimum transmission angle of 35 deg costs 1/sin^2, a factor of 3.
 * scale invariance: a power of two changes nothing, another factor 1e-14 relative (rounding of the factor itself).
 """
@@ -46,7 +46,7 @@ def cylinder_of(press: Press) -> CylinderChain:
 
 
 def peaks(function, order):
-    """Maximum magnitude over the turn of a function of an array of input angles."""
+    """Maximum magnitude over the revolution of a function of an array of input angles."""
     travel = function(np.radians(np.arange(0.0, 360.0, 2.0)), order)
     return [float(np.abs(v).max()) for v in (travel.value, travel.first, travel.second)[: order + 1]]
 

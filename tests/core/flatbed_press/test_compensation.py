@@ -4,7 +4,7 @@ Tolerances
 * published (TY-460 report): its right numbers are cases of `gearlink verify`. Where the report divides by the input's
   speed instead of the cam's (slope 12.049 instead of 17.515, rise 0.778 instead of 1.118), the program must miss
   the printed number and give the right one.
-* oracle (tests/oracles/press.py): 1e-13 of the peak of the lift or its derivative over the turn, from the
+* oracle (tests/oracles/press.py): 1e-13 of the peak of the lift or its derivative over the revolution, from the
   difference of two travels of some 500 mm that leaves some 15 (measured: 1e-14 of the peak).
 * joints: 1e-12 of the peak where a step must be none (measured: 4e-15).
 """

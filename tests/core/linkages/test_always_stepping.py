@@ -162,7 +162,7 @@ def test_no_frame_is_flatter(case: Case, window: float) -> None:
 
 @pytest.mark.parametrize("case", named(), ids=lambda case: case.name)
 def test_frames_that_keep_a_transmission_angle(case: Case) -> None:
-    """The angle between coupler and rocker, over the turn, at the ends of those frames and beyond them."""
+    """The angle between coupler and rocker, over the revolution, at the ends of those frames and beyond them."""
 
     def least(frame: float) -> float:
         coupler, rocker = angles(*case.links, frame, 1)

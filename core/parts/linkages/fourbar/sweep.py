@@ -111,7 +111,7 @@ def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
 
 
 def least_transmission_angle(crank: Reals, coupler: Reals, rocker: Reals, frame: Reals) -> Reals:
-    """Minimum transmission angle over the turn [rad], as `FourBar.min_transmission_angle`; NaN where the crank stops.
+    """Minimum transmission angle of a revolution [rad], `FourBar.min_transmission_angle`; NaN where the crank stops.
 
     tan^2(gamma/2) = (x - (b - c))(x + (b - c))/((b + c - x)(b + c + x)),   x = |d - a| and d + a
 
