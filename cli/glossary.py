@@ -339,6 +339,16 @@ def hint(meaning: Meaning, word: str, value: Any, section: tuple[str | int, ...]
     return f"{head}{' here' if meaning.keys else ''}: {'; or '.join(parts)}"
 
 
+def instead(key: str, value: Any) -> str:
+    """What to write for a value that stands under another key.
+
+    Example
+        >>> instead("spring.rate", 4)
+        'write `rate: 4` in `spring`'
+    """
+    return f"write {_in_sections([_line(key, value, True)], '')}"
+
+
 def _nearest(meaning: Meaning, section: tuple[str | int, ...], data: dict[str, Any]) -> list[str]:
     """Of the keys those of the same section, else those of sections that the file has, else all."""
     here = ".".join(map(str, section))

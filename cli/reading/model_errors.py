@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import islice
@@ -434,6 +434,8 @@ class _Wording:
         if translation := self._translation(key, allowed):
             term, names = translation
             return f"{key} is the {term}: write {' or '.join(f'`{name}`' for name in names)}"
+        if nested := self._nested(key, parent, value, allowed):
+            return nested
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain, by_letters = _spelled(key), {name.lower(): name for name in allowed}  # A_radius beside W_radius
@@ -457,6 +459,19 @@ class _Wording:
             return listed
         place = f"to '{format_path(sections[0])}'" if sections[0] else "to the top level of the file"
         return f"it belongs {place}; {listed}"
+
+    def _nested(self, key: str, parent: KeyPath, value: Any, allowed: Iterable[str]) -> str:
+        """What to write instead of sections and a key in one word, as spring.rate or spring_rate."""
+        for section in allowed:
+            below, name = (*parent, section), key.removeprefix(section)[1:]
+            if name and key.startswith((f"{section}.", f"{section}_")):
+                inside = fields_at(self.model, below, self.loaded.data)
+                if name not in inside:
+                    return self._nested(name, below, value, inside)
+                from gearlink.cli.glossary import instead
+
+                return instead(format_path((*below, name)), value)
+        return ""
 
     def _deeper(self, key: str) -> str:
         """The sections of this kind of file that have a key, where no allowed section has it.

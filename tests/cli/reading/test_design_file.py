@@ -389,6 +389,8 @@ def test_each_error_in_our_own_words(text: str, code: str, key: str, message: st
     ("text", "column", "help"),
     [
         ("crank: 3", 1, "it belongs to 'gears'; allowed here: "),
+        ("gears.module: 3", 1, "write `module: 3` in `gears`"),
+        ("gears_module: 3", 1, "write `module: 3` in `gears`"),
         ("Teeth: [1, 2]", 1, "did you mean 'teeth'? allowed here: "),
         ("gears: {module: 2, crank: 1, pressure-angle: 20}", 30, "did you mean 'pressure_angle'?"),
         ("gears: {module: 38,5, crank: 1}", 20, "commas separate entries: write decimals with a point"),
