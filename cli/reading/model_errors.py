@@ -123,7 +123,9 @@ def whole_number_remedy(value: float) -> str:
     """What to write instead of a float where teeth or the like are counted."""
     if not math.isfinite(value) or abs(value) >= 2.0**53:
         return ""
-    return f"write {int(value)}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
+    if value == int(value) or 0.0 < value < 1.0:  # of most that are counted there is at least one
+        return f"write {math.ceil(value)}"
+    return f"write {math.floor(value)} or {math.ceil(value)}"
 
 
 def number_remedy(text: str, unit: str = "") -> str:

@@ -114,7 +114,7 @@ class ToleranceSource(Spec):
     def _process(self) -> None:
         if self.cpk is not None and self.cpk > self.cp:
             raise refused(
-                f"cpk: {self.cpk:g} (limit <= {self.cp:g}, cp)\nlower cpk or raise cp: at mid-tolerance they are equal",
+                f"cpk: {self.cpk:g} (limit <= {self.cp:g}, cp)\nreduce cpk or increase cp (equal at mid-tolerance)",
                 code="GL172",
             )
         if self.cpk is not None and self.cpk < self.cp and self.shift is None:

@@ -122,21 +122,18 @@ def require_shift(pair: GearPair) -> None:
 
 def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
     """What is wrong where a tip circle lies inside its base circle."""
-    base, tip = abs(pair.base_radius[gear]), abs(pair.tip_radius[gear])
-    missing = (base - tip) / pair.module
+    base, tip = abs(pair.base_radius[gear]), pair.tip_radius[gear] * pair.signs[gear]
+    missing = safely_above(abs(base - tip) / pair.module, 3)
     if not pair.internal and pair.tip_radius[gear] - pair.tip_alteration[gear] * pair.module >= base:
         return _no_tip_left(pair, gear)
+    limit = f"{unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base radius: no involute is left)"
+    follows = pair.given_distance is not None and pair.given_shift is None and pair.given_first_shift is None
     if pair.teeth[gear] > 0:
-        return NoSolution(
-            f"tip radius of gear {gear + 1}: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base "
-            "radius: no involute is left)",
-            fix=f"increase its profile shift or the addendum by at least {missing:.3g} modules",
-        )
-    teeth = least_ring(pair)
-    fix = f"reduce its profile shift or its addendum by at least {safely_above(missing, 3)} modules"
+        fix = f"increase its profile shift or the addendum by at least {missing} modules"
+        return NoSolution(f"tip radius of gear {gear + 1}: {limit}", fix=_fitting(pair) if follows else fix)
+    teeth, fix = least_ring(pair), f"reduce its profile shift or its addendum by at least {missing} modules"
     return NoSolution(
-        f"tip radius of the ring: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base radius: no "
-        "involute is left)",
+        f"tip radius of the ring: {limit}",
         key=pair.teeth_keys[1],
         fix=fix if teeth is None else f"give it at least {teeth} teeth",
     )
@@ -154,16 +151,20 @@ def least_ring(pair: GearPair) -> int | None:
 def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:
     """What is wrong where the centre distance takes so much from the tips that none is left outside the base circle."""
     first, second = pair.teeth
-    distance = pair.center_distance
-    fitting = pair.module * distance / pair.reference_center_distance
     return NoSolution(
         f"the tips vanish at gear {gear + 1}: tip shortening {-pair.tip_alteration[gear]:.3g} modules, sum of the "
-        f"profile shifts {pair.shift_sum:.3g} (centre distance {short(distance)} mm, {first} and {second} teeth, "
-        f"module {pair.module:g} mm)",
-        fix=(
-            f"set the centre distance near {short(pair.reference_center_distance)} mm, or use a module "
-            f"near {fitting:.3g} mm or more teeth"
-        ),
+        f"profile shifts {pair.shift_sum:.3g} (centre distance {short(pair.center_distance)} mm, {first} and {second} "
+        f"teeth, module {pair.module:g} mm)",
+        fix=_fitting(pair),
+    )
+
+
+def _fitting(pair: GearPair) -> str:
+    """The centre distance and the module at which the profile shifts of a pair cancel."""
+    reference = pair.reference_center_distance
+    fitting = pair.module * pair.center_distance / reference
+    return (
+        f"set the centre distance near {short(abs(reference))} mm, or use a module near {fitting:.3g} mm or more teeth"
     )
 
 

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from sweeps import ALL, examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.pair import GearPair, no_involute_at_tip
 from gearlink.core.parts.gears.tooth import teeth
 
 EPS = 2.0**-52
@@ -408,6 +408,14 @@ def test_only_what_is_asked_for_is_computed():
 def test_refusals_name_the_limit(make, message):
     with pytest.raises(NoSolution, match=message):
         make()
+
+
+def test_a_ring_pair_pushed_far_apart_names_its_distance():
+    """The shift that follows is far below any: the fix asked for an increase by a negative number of modules."""
+    pair = GearPair(module=4.0, teeth=(69, -72), given_distance=290.2912330746487)
+    refusal = no_involute_at_tip(pair, 0)
+    assert refusal.message.startswith("tip radius of gear 1: -269.4 mm (limit >= 129.7 mm")
+    assert refusal.fix.startswith("set the centre distance near 6 mm")
 
 
 def test_a_distance_that_takes_the_tips_names_what_fits_it():
