@@ -124,7 +124,8 @@ def is_level(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
 
 def is_noise(v: Reals) -> NDArray[np.bool_]:
     """Whether the samples of a bracket go up and down too often for a function that the first samples resolved."""
-    signs = np.sign(v[:, 1:] - v[:, :-1])
+    with np.errstate(invalid="ignore"):  # between infinite samples
+        signs = np.sign(v[:, 1:] - v[:, :-1])
     noise: NDArray[np.bool_] = np.add.reduce(signs[:, :-1] * signs[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
     return noise
 

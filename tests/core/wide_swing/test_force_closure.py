@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
@@ -205,3 +206,10 @@ def test_return_cam_without_contact_is_a_finding_and_no_refusal() -> None:
     assert {"contact_force", "transition_zone"} <= {each.name for each in report.quantities}
     failed = {check.code for check in report.checks if check.status == "fail" and "external" in check.message}
     assert {"GL402", "GL507"} <= failed
+
+
+def test_a_roller_that_covers_the_profile_is_judged_in_silence() -> None:
+    """Trials of smaller rollers had radii without bound at neighbouring samples, whose difference warned."""
+    made = factory.design("wide_swing_cycle", command="swing", cam__roller_radius=76.2)
+    failing = [check.name for check in made.report("swing").checks if check.status == "fail"]
+    assert failing == ["cam-undercut", "transition-zone", "transition-zone"]
