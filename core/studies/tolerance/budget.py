@@ -17,6 +17,7 @@ from gearlink.core.numerics.arrays import Reals
 _COVERED = 3.0  # 99.73 % of a normal error
 _FAR = 40.0  # of the mean in sigmas: the far tail is 0 from some 6 on
 _STEPS = 8
+_JUST_BELOW = 1.0 - 1e-12  # the sums of tighter tolerances are rounded anew
 _FINER = 40
 """Per cent that two IT grades leave of a tolerance, each 1/1.6 of the next."""
 
@@ -221,7 +222,7 @@ def tightened(
         if error(names[:count], _FINER) <= limit:
             chosen, percents = names[:count], range(_FINER, 100)
             return chosen, percents[bisect_left(percents, True, key=lambda each: error(chosen, each) > limit) - 1]
-    return names, 100.0 * limit / error(names, 100.0)
+    return names, _JUST_BELOW * 100.0 * limit / error(names, 100.0)
 
 
 def _scaled(one: Contribution, share: float, names: Sequence[str]) -> Contribution:
