@@ -218,7 +218,8 @@ def _developed(design: Any, name: str, radius: float, side: int) -> Part:
         notes=(
             f"developed at radius {radius:.9g} mm; roller radius {drum.roller_radius:.9g} mm",
             f"plane development: on the cylinder a wall lies up to {beside} from its line; the table walls is exact",
-            "frame: x along the circumference from cam angle 0 on, y along the axis, lift 0 at y 0",
+            "frame: x along the circumference from cam angle 0 on, y along the axis, lift 0 at y 0; seen from "
+            f"{'inside' if drum.sense > 0 else 'outside'} the drum",
         ),
         findings=(found.message,) if found.status == "fail" else (),
         extra_columns=("cam_angle [deg]", "pressure_angle [deg]", "curvature [1/mm]"),

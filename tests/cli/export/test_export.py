@@ -18,6 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import factory
+import numpy as np
 import pytest
 from sweeps import mostly_slow
 
@@ -412,3 +414,16 @@ def test_walls_of_a_drum_stand_a_roller_off_its_pitch_line(gearlink: Any, tmp_pa
         bend = abs((after - at) / abs(after - at) - (at - before) / abs(at - before))
         assert abs((way * each.conjugate()).real) <= 10.0 * (bend + 1e-3)  # lifts of the file are rounded
     assert float(rows[0]["x [mm]"]) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("sense", "view"), [(1, "inside"), (-1, "outside")])
+def test_a_development_says_from_where_the_drum_is_seen(gearlink: Any, tmp_path: Path, sense: int, view: str) -> None:
+    """From outside, the axis up, x grows to the right: counter-clockwise, as the wall in space runs or does not."""
+    of_sense = ("--set", f"cam.sense={sense}", "--part", "outside_upper")
+    gearlink("export", ROOT / "designs" / "barrel_cam.yaml", *of_sense, "--as", "csv", "--out", tmp_path)
+    (path,) = tmp_path.glob("*.csv")
+    assert f"seen from {view} the drum" in path.read_text(encoding="utf-8")
+    walls = factory.design("barrel_cam", cam__sense=sense).table("walls")
+    azimuth = np.unwrap(np.arctan2(walls["outside_upper_y"], walls["outside_upper_x"]))
+    assert (azimuth[-1] > azimuth[0]) == (view == "outside")
+    assert float(table(path)[-1]["x [mm]"]) > 0.0
