@@ -223,7 +223,7 @@ def motion_of(
     for number, segment in enumerate(motion, 1):
         end = math.radians(segment.to)
         if segment.return_ is not None:
-            pieces += _mirrored_rise(pieces, number, start, end)
+            pieces += _mirrored_rise(pieces, number, start, end, unit)
         else:
             target = lift if segment.lift is None else unit * segment.lift
             pieces.append(_piece(segment, number, (start, end), (lift, target), unit, spec))
@@ -303,9 +303,15 @@ def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any
         shape = _normalised(one) if one.kind == "given-ends" else _plain(one)
     if segment.mirrored:
         raise NoSolution(f"mirrored applies only to a law from rest to speed; {name} runs from rest to rest")
+    return replace(blank, name=name, shape=shape, joints=joints, ends=_ends(blank, shape))
+
+
+def _ends(blank: Piece, shape: Shape) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Velocity and acceleration at both ends of a piece with a shape, by the cam angle."""
     _, v, a = shape(np.array([0.0, 1.0]), 2)
+    slope = (blank.high - blank.low) / blank.width
     first, last = ((slope * float(v[k]), slope / blank.width * float(a[k])) for k in (0, 1))
-    return replace(blank, name=name, shape=shape, joints=joints, ends=(first, last))
+    return first, last
 
 
 def _even(x: Reals, order: int) -> list[Reals]:
@@ -350,7 +356,8 @@ def _awaited(pieces: list[Piece], unit: float) -> list[Piece]:
                 v, a = _facing(beside, ("start", "end")[side], key, unit)
                 values[key] = [float(key == "end"), v * piece.width / rise, a * piece.width**2 / rise]
             one = shaped_law(definition.model_copy(update=values), Phase(piece.width, rise / unit))  # type: ignore[union-attr]
-        made[k] = replace(piece, shape=_normalised(one), joints=one.joints, law=one, waits=None)
+        shape = _normalised(one)
+        made[k] = replace(piece, shape=shape, joints=one.joints, ends=_ends(piece, shape), law=one, waits=None)
     return made
 
 
@@ -455,7 +462,7 @@ def _shifted(definition: Any, inflection: Any) -> tuple[Shape, tuple[float, ...]
     return shape, tuple(sorted({*low, m, *high})), f"shifted {one.name}"
 
 
-def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: float) -> list[Piece]:
+def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: float, unit: float) -> list[Piece]:
     """The last rise backwards over a width."""
     last = next((k for k in reversed(range(len(pieces))) if pieces[k].high > pieces[k].low), None)
     if last is None:
@@ -464,6 +471,10 @@ def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: floa
     while first > 0 and pieces[first - 1].high > pieces[first - 1].low:
         first -= 1
     rise = pieces[first : last + 1]
+    if (lift := pieces[-1].high) != rise[-1].high:
+        ends = f"{rise[-1].high / unit:.9g}"
+        message = f"segment {number} begins at lift {lift / unit:.9g} and repeats a rise backwards that ends at {ends}"
+        raise NoSolution(message, key="motion", fix="give lift and law")
     if any(piece.coefficients or piece.waits for piece in rise):
         message = f"segment {number} repeats a rise backwards that depends on its neighbours"
         raise NoSolution(message, key="motion", fix="give lift and law")

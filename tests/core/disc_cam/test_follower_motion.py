@@ -129,6 +129,14 @@ def test_refusals_stand_at_the_motion(segment: dict[str, Any]) -> None:
     assert refused.value.key.startswith("motion[0]")
 
 
+def test_a_rise_is_not_repeated_backwards_from_another_lift() -> None:
+    """The lift would step from 4 to 12."""
+    returns = {"to": 200, "lift": 4}, {"to": 280, "return": "mirrored"}, {"to": 360}
+    with pytest.raises(NoSolution, match=r"segment 3 begins at lift 4 and .* ends at 12") as refused:
+        made({"to": 100, "lift": 12}, *returns)
+    assert (refused.value.key, refused.value.fix) == ("motion", "give lift and law")
+
+
 def test_strokes_divide_a_polynomial_where_it_turns() -> None:
     keys = {"law": "polynomial"}
     motion = made({"to": 120, "lift": 10, **keys, "end_velocity": -30.0}, {"to": 360, "lift": 0, **keys})
@@ -199,6 +207,21 @@ def test_ends_that_join_and_ends_in_the_units_of_the_file() -> None:
     assert float(motion.evaluate(np.radians([280.0]), 1)[1][0]) == pytest.approx(
         -0.4 * 25.0 / math.radians(80.0), rel=1e-12
     )
+
+
+def test_a_polynomial_takes_the_end_of_a_law_that_joins_at_its_other_end() -> None:
+    """Without the law's own end values the lift had a step of its velocity."""
+    joined = {"type": "polynomial", "start": "join", "end": {"speed": 5.0, "acceleration": 3.0}}
+    motion = made(
+        {"to": 60},
+        {"to": 100, "lift": 36, "law": joined},
+        {"to": 260, "lift": -17, "law": "polynomial"},
+        {"to": 360, "lift": 0},
+    )
+    at = motion.evaluate(np.radians([100.0]), 2)
+    assert [float(each[0]) for each in at] == pytest.approx([36.0, 5.0, 3.0], rel=1e-12)
+    for order in (1, 2):
+        assert max(abs(step) for _, step in motion.steps(order)) < 1e-9
 
 
 def test_a_law_that_turns_round_is_divided_there() -> None:
