@@ -335,6 +335,7 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
         with refusals_located(loaded):
             motion, count = design.follower_motion, _servo_rows(design, rows, tolerance)
             table, error = servo_table(motion, count, rocks=design.rocks), greatest_error(motion, count)
+            as_read = greatest_error(motion, count, end_side=1)
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerows(table_rows(table))
@@ -343,8 +344,9 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
     except (DesignFileError, CannotWrite) as refused:
         return show_refusal(refused, source, options)
     if not options.quiet:
-        shown = f"{math.degrees(error):.3g} deg" if design.rocks else f"{error:.3g} mm"
-        print(f"{visible(str(path))}: {count} rows, off by at most {shown} between them{in_place(path)}")
+        shown, stepped = (f"{math.degrees(e):.3g} deg" if design.rocks else f"{e:.3g} mm" for e in (error, as_read))
+        more = f" ({stepped} before rows with a step, which have the values after it)" if stepped != shown else ""
+        print(f"{visible(str(path))}: {count} rows, off by at most {shown} between them{more}{in_place(path)}")
     return _warned(_failed(design))
 
 

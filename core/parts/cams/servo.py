@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from typing import Protocol
@@ -29,6 +30,7 @@ class FollowerMotion(Protocol):
 STEPS = (15.0, 10.0, 7.5, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.25, 0.1)
 """Steps of the table that a tolerance may take [deg]."""
 _BETWEEN = 17
+_NAMES = ("position", "velocity", "acceleration", "jerk")
 
 
 def servo_rows(motion: FollowerMotion, rows: int) -> tuple[Reals, list[Reals]]:
@@ -38,22 +40,30 @@ def servo_rows(motion: FollowerMotion, rows: int) -> tuple[Reals, list[Reals]]:
 
 
 def servo_table(motion: FollowerMotion, rows: int, *, rocks: bool) -> Table:
-    """Positions and their derivatives per degree of the master at equal steps, lifts in mm, of a rocker in deg."""
+    """Positions and their derivatives per degree of the master at equal steps, lifts in mm, of a rocker in deg.
+
+    Notes
+        Without the jerk where the motion has two derivatives only, as that of measured points.
+    """
     degrees, values = servo_rows(motion, rows)
     unit = "deg" if rocks else "mm"
     columns: dict[str, tuple[Reals, str]] = {"master_position": (degrees, "deg")}
-    for order, (name, value) in enumerate(zip(("position", "velocity", "acceleration", "jerk"), values, strict=True)):
+    for order, (name, value) in enumerate(zip(_NAMES, values, strict=False)):
         shown = (np.degrees(value) if rocks else value) * math.radians(1.0) ** order
         columns[f"slave_{name}"] = (shown, unit + ("", "/deg", "/deg^2", "/deg^3")[order])
     return Table.of("servo", columns)
 
 
-def deviation(motion: FollowerMotion, rows: int, phi: Reals) -> Reals:
-    """Lift less the polynomial through value, velocity and acceleration of the rows about it [mm or rad]."""
+def deviation(motion: FollowerMotion, rows: int, phi: Reals, *, end_side: int = -1) -> Reals:
+    """Lift less the polynomial through value, velocity and acceleration of the rows about it [mm or rad].
+
+    Parameters
+        end_side : -1 or +1 - of a joint on the row after: the values before it, or those that the row has
+    """
     places = np.radians(360.0 * np.arange(rows) / (rows - 1))
     at = np.clip(np.searchsorted(places, phi, side="right") - 1, 0, rows - 2)
     after = motion.evaluate(places[:-1], 2)
-    before = motion.evaluate(places[1:], 2, side=-1)
+    before = motion.evaluate(places[1:], 2, side=end_side)
     b = places[at + 1] - places[at]
     values = np.stack([*(after[n][at] * b**n for n in range(3)), *(before[n][at] * b**n for n in range(3))])
     powers, x, found = HERMITE @ values, (phi - places[at]) / b, np.zeros_like(phi)
@@ -62,11 +72,12 @@ def deviation(motion: FollowerMotion, rows: int, phi: Reals) -> Reals:
     return motion.evaluate(phi, 0)[0] - found
 
 
-def greatest_error(motion: FollowerMotion, rows: int) -> float:
-    """Maximum error of the position between the rows [mm or rad], refined."""
+def greatest_error(motion: FollowerMotion, rows: int, *, end_side: int = -1) -> float:
+    """Maximum error of the position between the rows [mm or rad], refined; `end_side` as of `deviation`."""
     apart = sorted({*np.linspace(0.0, TURN, rows)[1:-1].tolist(), *motion.joints})
     joints = [b for a, b in zip([-1.0, *apart], apart, strict=False) if b - a > 1e-9]
-    return maximum_over(lambda phi: np.abs(deviation(motion, rows, phi)), joints=joints, fewest=_BETWEEN).value
+    between = functools.partial(deviation, motion, rows, end_side=end_side)
+    return maximum_over(lambda phi: np.abs(between(phi)), joints=joints, fewest=_BETWEEN).value
 
 
 def rows_for(motion: FollowerMotion, tolerance: float) -> int:

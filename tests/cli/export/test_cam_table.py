@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.interpolate import BPoly
 
 from gearlink.core.parts.cams.follower_motion import HERMITE
 from gearlink.core.parts.cams.laws import law
@@ -30,6 +31,32 @@ def test_the_table_of_a_drive(gearlink: Any, tmp_path: Path) -> None:
     values = np.array([float(row[name]) for row in rows[5:7] for name in names]) * np.array([1.0, 10.0, 100.0] * 2)
     middle = float(np.polynomial.polynomial.polyval(0.5, HERMITE @ values))
     assert middle == pytest.approx(25.0 * law("modified-sine").evaluate(0.55, 0)[0], abs=1e-3)
+
+
+def test_the_error_of_rows_that_have_the_values_after_a_step(gearlink: Any, tmp_path: Path) -> None:
+    """The drive knows one acceleration a row: before a step of it the polynomial through the file's own numbers."""
+    path = tmp_path / "cam.yaml"
+    motion = "[{to: 60, lift: 20, law: simple-harmonic}, {to: 360, lift: 0, law: cycloidal}]"
+    path.write_text(
+        f"kind: disc-cam\nmotion: {motion}\nfollower: {{type: translating-roller, roller_radius: 5}}\n"
+        "cam: {prime_radius: 60}\n"
+    )
+    said = gearlink("export", path, "--cam-table", "--rows", 73, "--out", tmp_path).out
+    table = np.loadtxt(tmp_path / "cam-cam-table.csv", delimiter=",", skiprows=1)
+    curve = BPoly.from_derivatives(table[:, 0], table[:, 1:4])
+    angle = np.linspace(50.0, 60.0, 20_001)
+    off = np.abs(curve(angle) - 20.0 * law("simple-harmonic").evaluate(angle / 60.0, 0)[0]).max()
+    assert off == pytest.approx(0.01185, rel=1e-3)
+    assert f"({off:.3g} mm before rows with a step, which have the values after it)" in said
+    smooth = gearlink("export", path, "--cam-table", "--set", "motion[0].law=cycloidal", "--out", tmp_path).out
+    assert "step" not in smooth
+
+
+def test_measured_points_have_a_table_without_jerk(gearlink: Any, tmp_path: Path) -> None:
+    """It was a fault of the program."""
+    assert gearlink("export", DESIGNS / "measured_cam.yaml", "--cam-table", "--out", tmp_path).status == 0
+    head = (tmp_path / "measured-cam-cam-table.csv").read_text(encoding="utf-8").partition("\n")[0].split(",")
+    assert [name.partition(" ")[0] for name in head[1:]] == ["slave_position", "slave_velocity", "slave_acceleration"]
 
 
 def test_a_press_has_none(gearlink: Any, tmp_path: Path) -> None:
