@@ -408,9 +408,11 @@ class RegisterDesign(Design):
 
     @cached_property
     def sampled_places(self) -> Reals:
-        """Input angles at which samples are closed [rad], some of the stretch with its ends among them."""
+        """Input angles at which samples are closed [rad]: some of the stretch, its ends, the largest budget."""
         count = self.input_angles.size
-        chosen: Reals = self.input_angles[np.linspace(0, count - 1, min(count, _PLACES)).astype(int)]
+        even = np.linspace(0, count - 1, min(count, _PLACES)).astype(int)
+        largest = [int(np.argmax(one.band)) for one in self.budgets]
+        chosen: Reals = self.input_angles[np.unique([*even, *largest])]
         return chosen
 
     @cached_property
@@ -428,24 +430,34 @@ class RegisterDesign(Design):
         model = type(self.spec)
         text = str(self.spec.model_dump_json(exclude_unset=True, exclude_none=True, by_alias=True))
         share = partial(_share_of, type(self), model, text) if is_shared() else self.sampled_share
-        found = np.mean(list(of_replications(share)), axis=0)
-        return [float(one.max()) for one in found]
+        largest = np.sort(np.concatenate(list(of_replications(share)), axis=2), axis=2)
+        return [float(one.max()) for one in largest[:, :, -self._beyond]]
+
+    @property
+    def _sample_count(self) -> int:
+        return rounded_up(self.spec.tolerance.samples or _SAMPLES)
+
+    @property
+    def _beyond(self) -> int:
+        """Samples that the band leaves out, and the one on it."""
+        return self._sample_count - math.ceil(_KEPT * self._sample_count) + 1
 
     def sampled_share(self, number: int) -> Reals:
-        """The band at the places of the samples by one replication; (2, places) array [mm]."""
+        """The largest errors of one replication at the places of the samples; (2, places, n) array [mm]."""
         section, chosen, own = self.spec.tolerance, self.sampled_places, self.own_errors
         width = sum(one.coordinates for one in self.sources)
-        points = replication(width + len(own[0]), rounded_up(section.samples or _SAMPLES), section.seed, number)
+        points = replication(width + len(own[0]), self._sample_count, section.seed, number)
         parts = deviations_of(self.sources, together(points[:, :width], coordinate_root(section, self.sources)))
-        bands, errors = [], np.zeros(0)
+        found, errors = [], np.zeros(0)
         for sign, beside in zip(SIGNS, own, strict=True):
             if sign == SIGNS[0] or self.chain(chosen, sign) is not self.chain(chosen, SIGNS[0]):
                 errors = self.sampled_errors(chosen, sign, parts)
                 if chosen.size > 1:
                     errors = errors - errors[0]
                 self._require_closed(errors, sign)
-            bands.append([_band(one) for one in errors + _scattered(beside, points[:, width:])])
-        return np.array(bands)
+            off = np.sort(np.abs(errors + _scattered(beside, points[:, width:])), axis=1)
+            found.append(off[:, -self._beyond :])
+        return np.array(found)
 
     def _require_closed(self, errors: Reals, sign: int) -> None:
         """Refuse a band outside of which no samples could lie but those that do not close."""
@@ -602,11 +614,6 @@ def _scattered(own: Sequence[Contribution], points: Reals) -> Any:
         law = Law("normal", -one.limit, one.limit, one.mean, one.sigma)
         found = found + np.real(one.gain)[:, None] * law.deviations(share)
     return found
-
-
-def _band(errors: Reals) -> float:
-    ordered = np.sort(np.abs(errors))
-    return float(ordered[min(ordered.size - 1, math.ceil(_KEPT * ordered.size) - 1)])
 
 
 def tighter(found: tuple[list[str], float], sources: int) -> str:
