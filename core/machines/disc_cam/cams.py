@@ -321,8 +321,11 @@ class FollowerCams:
             return Place(offset + distance * math.sin(start), 0.0, distance, start)
         share = (given - offset) / distance
         if not 0.0 < share < 1.0:
-            message = f"base_radius {given:g} mm is between {offset:g} and {offset + distance:g} mm here"
-            raise NoSolution(message, key="cam.base_radius")
+            low, high = max(offset, 0.0), offset + distance
+            message = (
+                f"base_radius: {given:g} mm (limit > {low:g} mm and < {high:g} mm, center_distance with face_offset)"
+            )
+            raise NoSolution(message, key="cam.base_radius", fix=f"set it between {low:g} mm and {high:g} mm")
         return Place(given, 0.0, distance, math.asin(share))
 
     def _face_room(self, start: float, follower: OscillatingFlat) -> float:

@@ -16,6 +16,7 @@ from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_ab
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Making, Place
+from gearlink.core.machines.disc_cam.spec import OscillatingFlat
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, maximum_over
 from gearlink.core.parts.cams.checks import edge_check, flat_undercut_check, hub_checks, undercut_checks
@@ -447,9 +448,16 @@ class DiscCamDesign(OfFollower, Design):
             return
         limit = self.spec.limits.curvature_radius
         if self.spec.is_flat:
-            yield flat_undercut_check(self.cams.flat, limit, "increase cam.base_radius by {} mm")
+            yield flat_undercut_check(self.cams.flat, limit, self._larger_under_face(limit))
         else:
             yield edge_check(self.cams.sharpest, limit, _LARGER)
+
+    def _larger_under_face(self, limit: float) -> str:
+        """What enlarges the profile under a flat face; where one rocks, the radius ends at its centre distance."""
+        follower, needed = self.spec.follower, self.base_radius + limit - self.cams.flat.min_curvature_radius.value
+        if isinstance(follower, OscillatingFlat) and needed >= follower.face_offset + follower.center_distance:
+            return "give the motion more cam angle, or less lift"
+        return "increase cam.base_radius by {} mm"
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the profile against its shaft."""
@@ -500,7 +508,8 @@ class DiscCamDesign(OfFollower, Design):
         status: Status = "fail" if speed <= spec.speed else "warn" if speed < _RESERVE * spec.speed else "pass"
         fix = ""
         if status != "pass":
-            more, key = closing.preload_for(_RESERVE * closing.speed), "preload"
+            # more than that by a little: at a force of 0 it lifts off at any speed
+            more, key = (1.0 + 1e-9) * closing.preload_for(_RESERVE * closing.speed), "preload"
             if spec.spring is not None and spec.spring.least_force is not None:  # the preload follows from it
                 more, key = more - (closing.preload or 0.0) + spec.spring.least_force, "least_force"
             unit = "N m" if spec.oscillates else "N"
@@ -522,7 +531,9 @@ class DiscCamDesign(OfFollower, Design):
         aside = f"contact {short(low)} to {short(high)} mm, face {short(least)} to {short(most)} mm"
         what = "contact beyond the end of the face"
         if beyond > 1e-9:
-            fix = f"lengthen follower.face by {safely_above(beyond)} mm"
+            rocks, (start, end) = self.spec.oscillates, face
+            start = safely_below(min(start, low)) if rocks else safely_above(max(start, -low))
+            fix = f"set follower.face to [{start}, {safely_above(max(end, high))}]"
             yield FACE_LENGTH.check("fail", what, beyond, 0.0, "mm", aside=aside, fix=fix)
         else:
             what = "the contact stays on the face"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -431,3 +432,53 @@ def test_a_table_of_points_has_no_segments() -> None:
     points = [[float(a), 10.0 * (1.0 - math.cos(math.radians(a)))] for a in range(0, 361, 10)]
     with pytest.raises(NoSolution, match="the table segments needs motion by segments"):
         cam({"table": points}, ROLLER, {"prime_radius": 60}).table("segments")
+
+
+# What a finding says is done, and it passes
+
+
+def test_the_preload_of_the_advice_holds_the_follower_also_where_its_spring_would_lose_its_force() -> None:
+    """Rate times lift at the lowest place: at exactly this preload the force is 0, and it lifts off at any speed."""
+    motion = [{"to": 180, "lift": -5.7, "law": "cycloidal"}, {"to": 360, "lift": 0, "law": "cycloidal"}]
+    follower = {"type": "translating-roller", "roller_radius": 8.8, "mass": 1.5}
+    data = {"kind": "disc-cam", "speed": 95, "motion": motion, "follower": follower, "cam": {"prime_radius": 80}}
+
+    def found(preload: float) -> Any:
+        spring = {"preload": preload, "rate": 7.7}
+        return next(iter(factory.design({**data, "spring": spring}, command="cam").check("lift-off")))
+
+    advised = found(37.8).fix.split()
+    assert advised[:3] == ["raise", "spring.preload", "to"]
+    assert found(float(advised[3])).status == "pass"
+    assert float(advised[3]) < 43.95
+
+
+def test_a_face_that_ends_too_early_on_both_sides_is_lengthened_on_both() -> None:
+    motion = [{"to": 90, "lift": 20, "law": "cycloidal"}, {"to": 270, "lift": 0, "law": "cycloidal"}, {"to": 360}]
+    data = {"kind": "disc-cam", "motion": motion, "cam": {"base_radius": 60}}
+    for follower in (
+        {"type": "translating-flat", "face": [5, 5]},
+        {"type": "oscillating-flat", "center_distance": 120, "face": [90, 95]},
+    ):
+
+        def check(face: Any, follower: Any = follower) -> Any:
+            given = {**data, "follower": {**follower, "face": face}}
+            if follower["type"] == "oscillating-flat":
+                given["motion"] = [{**one, **({"lift": one["lift"] / 4} if "lift" in one else {})} for one in motion]
+            return next(iter(factory.design(given, command="cam").check("face-length")))
+
+        one = check(follower["face"])
+        assert one.status == "fail"
+        assert one.fix.startswith("set follower.face to [")
+        assert check(json.loads(one.fix.removeprefix("set follower.face to "))).status == "pass"
+
+
+def test_no_base_radius_beyond_the_centre_distance_of_a_rocking_face_is_advised() -> None:
+    follower = {"type": "oscillating-flat", "center_distance": 140}
+    motion = [{"to": 20, "lift": 8, "law": "mcv-20"}, {"to": 360, "lift": 0, "law": "mcv-20"}]
+    data = {"kind": "disc-cam", "motion": motion, "follower": follower}
+    (one,) = factory.design({**data, "cam": {"base_radius": 30}}, command="cam").check("cam-undercut")
+    assert (one.status, one.fix) == ("fail", "give the motion more cam angle, or less lift")
+    with pytest.raises(NoSolution, match=r"base_radius: 150 mm \(limit > 0 mm and < 140 mm") as refused:
+        _ = factory.design({**data, "cam": {"base_radius": 150}}, command="cam").base_radius
+    assert refused.value.fix == "set it between 0 mm and 140 mm"
