@@ -20,6 +20,8 @@ from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
 from gearlink.core.parts.cams.disc_cam import AT_CORNER, SAMPLES
 from gearlink.core.parts.cams.follower_motion import FollowerMotion
 
+_STANDS = 1e-9
+"""Of the cam's speed: a rocking face that is slower against the cam is as fast as it, but for rounding."""
 _CROSSES = 1e-6
 """Of the largest radius: more than what the contact moves between both sides of a joint."""
 
@@ -84,9 +86,9 @@ def rocking_face(
     def touch(phi: Reals) -> Touch:
         s, s1, s2 = motion.evaluate(phi, 2)
         relative = 1.0 + sigma * s1
-        if not np.all(relative > 0.0):
+        if not np.all(relative > _STANDS):
             place = math.degrees(float(np.atleast_1d(phi)[int(np.argmin(relative))]))
-            message = f"at cam angle {place:.5g} deg the follower moves faster than the cam"
+            message = f"at cam angle {place:.5g} deg the follower moves as fast as the cam, or faster"
             raise NoSolution(message, key="motion", fix="give its motion more cam angle")
         across, along = distance * np.sin(start + s), distance * np.cos(start + s)
         t = along / relative

@@ -434,6 +434,15 @@ def test_a_table_of_points_has_no_segments() -> None:
         cam({"table": points}, ROLLER, {"prime_radius": 60}).table("segments")
 
 
+def test_a_rocking_face_as_fast_as_its_cam_is_refused() -> None:
+    """10 deg in 20 deg of the cycloidal law: 1 + s' was 1e-17 and the contact 1e17 mm away, the largest radius 0."""
+    motion = [{"to": 180, "lift": 10}, {"to": 280}, {"to": 300, "lift": 0, "law": "cycloidal"}, {"to": 360}]
+    made = cam(motion, {"type": "oscillating-flat", "center_distance": 140}, {"base_radius": 60})
+    with pytest.raises(NoSolution, match="the follower moves as fast as the cam, or faster") as refused:
+        _ = made.raw("max_radius")
+    assert refused.value.key == "motion"
+
+
 # What a finding says is done, and it passes
 
 
