@@ -6,6 +6,7 @@ the standstill 1e-13 times 1/sin^2(gamma), which is what they cost in the genera
 
 import json
 import math
+import re
 from pathlib import Path
 
 import mpmath
@@ -175,10 +176,22 @@ def test_ends_of_the_range():
 
 @pytest.mark.parametrize(("e", "words"), [(25.0, "step back"), (26.0, "step back"), (5.0, "never stops")])
 def test_refuses_a_crank_outside_the_range(e, words):
-    with pytest.raises(NoSolution, match=rf"{words}.*above 5\.629, below 25 mm"):
+    with pytest.raises(NoSolution, match=rf"{words}.*5\.629 to 24\.99 mm"):
         momentary_frame_length(*EX3, e)
-    with pytest.raises(NoSolution, match="between"):
+    with pytest.raises(NoSolution, match=r"5\.629 to 24\.99 mm"):
         momentary_crank_angle(*EX3, e)
+
+
+def test_the_printed_range_of_cranks_holds_as_printed():
+    """Modules 2, gears 79/36/33: the lower limit 35.324567 was printed as 35.32, with which the crank is refused."""
+    radii = 79.0, 36.0, 33.0
+    low, high = eccentricity_range(*radii)
+    with pytest.raises(NoSolution, match=r"35\.33 to 61\.\d+ mm") as refused:
+        momentary_linkage(*radii, 29.41)
+    assert low == pytest.approx(35.3246, abs=1e-4)
+    for crank in map(float, re.findall(r"\d+\.\d+", refused.value.fix)):
+        assert low < crank < high
+        assert momentary_linkage(*radii, crank).kind() == "crank-rocker"
 
 
 def test_refuses_a_crank_that_would_not_turn():
@@ -197,5 +210,5 @@ def test_refuses_radii_and_cranks_that_are_no_lengths():
         momentary_frame_length(25.0, 0.0, 75.0, 16.0)
     with pytest.raises(NoSolution, match="never stops"):
         momentary_frame_length(*EX3, math.nan)
-    with pytest.raises(NoSolution, match=r"crank: 112 mm \(for the output to stop above 5\.629"):
+    with pytest.raises(NoSolution, match=r"crank: 112 mm \(for the output to stop 5\.629 to"):
         tangency(*EX3, 112.0)

@@ -427,7 +427,7 @@ def test_crank_outside_the_range_of_a_momentary_dwell(eccentricity, assembly):
     made = design(
         "synth momentary-dwell", gears=ANY | {"idler": 20}, momentary={"eccentricity": eccentricity}, assembly=assembly
     )
-    with pytest.raises(NoSolution, match=r"above 5\.629, below 25 mm") as refusal:
+    with pytest.raises(NoSolution, match=r"5\.629 to 24\.99 mm") as refusal:
         made.report("synth momentary-dwell")
     assert refusal.value.key == "momentary.eccentricity"
 
