@@ -1572,7 +1572,14 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     def check_acceleration_step(self) -> Check:
         """GL404 at every joint of the lift."""
-        remedy = "give a cam.lead_in before the zone, transition quartic and return_law cycloidal"
+        follower = self.cams.follower
+        at_ends = max(abs(follower.return_law.evaluate(x, 2)[2]) for x in (0.0, 1.0))
+        changes = (
+            (follower.lead_in == 0.0, "give a cam.lead_in before the zone"),
+            (follower.transition != "quartic", "set cam.transition to quartic"),
+            (at_ends > 1e-9, "set cam.return_law to cycloidal"),
+        )
+        remedy = ", ".join(words for missing, words in changes if missing)
         return _steps(self, ACCELERATION_STEP, "second", "mm/rad^2", "warn", remedy)
 
     def check(self, name: str) -> list[Check]:

@@ -270,12 +270,18 @@ def test_zone_of_the_reports_whole_degrees_starts_without_a_step_worth_the_name(
     (check,) = design.check("acceleration-step")
     assert (check.code, check.status) == ("GL404", "warn")
     assert "and 2 further steps at other joints) at the joint transition/return, 125 deg" in check.message
+    assert check.fix == "give a cam.lead_in before the zone, set cam.transition to quartic"
+    (check,) = press(sync=REPORT, transition="arc", lead_in=12.0).check("acceleration-step")
+    assert check.fix == "set cam.transition to quartic"
 
 
 def test_acceleration_steps_go_away_as_advised():
     assert status(press(), "acceleration-step") == ["warn"]
     assert status(press(transition="parabola", lead_in=12.0), "acceleration-step") == ["warn"]
-    assert status(press(return_law="simple-harmonic", lead_in=12.0), "acceleration-step") == ["warn"]
+    rough = press(return_law="simple-harmonic", lead_in=12.0)
+    assert [(c.status, c.fix) for c in rough.check("acceleration-step")] == [
+        ("warn", "set cam.return_law to cycloidal")
+    ]
     assert status(press(lead_in=12.0), "acceleration-step") == ["pass"]
 
 
