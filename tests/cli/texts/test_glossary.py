@@ -53,7 +53,16 @@ FIELD += """;
     parabolic motion; double dwell; indexing table; bearer; Rastgetriebe; Kurbelwinkel;
     Zahnfußfestigkeit; Hubkurve; 曲柄摇杆; 间歇机构; blanket cylinder; forme; precision points
 """
+FIELD += """;
+    twin cam; balancing coefficient; K_y1; step angle; 联动凸轮组合机构; 凸轮-连杆组合机构; 凸轮-齿轮组合机构;
+    平均角速度比; 曲柄滑块; 位移补偿量; 远休止; 近休止; 返程; 副凸轮; 递纸机构; 递纸摆动机构
+"""
 NAMES = [" ".join(name.split()) for name in FIELD.split(";")]
+
+
+def test_the_twin_cam_of_a_wide_swing_is_no_pair_of_conjugate_cams() -> None:
+    assert [term.name for term in named_terms("twin-cam")] == ["wide-swing cam"]
+    assert "wide-swing-cam" not in glossary()["conjugate cams"].kinds
 
 
 def test_there_are_terms_for_the_whole_field() -> None:
