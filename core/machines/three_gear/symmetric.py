@@ -121,7 +121,8 @@ def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: fl
     low, high = lowest_speed, highest_speed
     if not (0.0 <= low < high < math.inf):
         raise NoSolution(
-            f"speed: {short(low)} to {short(high)} 1/min (0 <= min < max: the output of this synthesis turns one way)"
+            f"speed: {short(low)} to {short(high)} 1/min (0 <= min < max: the output of this synthesis turns one way)",
+            fix="set speed.max above speed.min" if low >= 0.0 else "set speed.min to 0 or more, or use synth back-step",
         )
     found: float = frame_ratio_between(i3, low, high)
     return found

@@ -306,12 +306,11 @@ def _obstacle(reached: list[tuple[int, float, float]], angle_limit: float, gap_l
         gap = f"gap of crank and output gear at most {safely_below(best_gap[2])} mm, idler {best_gap[0]}"
         return f"{head}{gap} (limit >= {gap_limit:g} mm)", "change the crank and output teeth or the task"
     angles = "transmission angle at most "
-    if best_angle[1] < angle_limit:
-        best = f"{safely_below(math.degrees(best_angle[1]))} deg, idler {best_angle[0]}"
-        return f"{head}{angles}{best} {asked_angle}", "reduce limits.transmission_angle"
-    both = max((row for row in reached if row[2] >= gap_limit), key=lambda row: row[1])
-    best = f"{safely_below(math.degrees(both[1]))} deg, idler {both[0]}"
-    return f"{head}with the gear gap {angles}{best} {asked_angle}", "reduce limits.transmission_angle"
+    if best_angle[1] >= angle_limit:
+        angles = f"with the gear gap {angles}"
+        best_angle = max((row for row in reached if row[2] >= gap_limit), key=lambda row: row[1])
+    best = safely_below(math.degrees(best_angle[1]))
+    return f"{head}{angles}{best} deg, idler {best_angle[0]} {asked_angle}", f"set limits.transmission_angle to {best}"
 
 
 # Candidates side by side

@@ -97,6 +97,8 @@ def test_names_both_limits_where_only_both_together_fail():
     with pytest.raises(NoSolution, match="no idler from") as caught:
         smallest_idler(design, 40, 40, 2.0, min_transmission_angle=angle, min_gear_gap=gap)
     assert caught.value.key == "gears.idler"
+    lowered = math.radians(float(caught.value.fix.removeprefix("set limits.transmission_angle to ")))
+    assert smallest_idler(design, 40, 40, 2.0, min_transmission_angle=lowered, min_gear_gap=gap) <= 99
 
 
 def test_a_task_that_no_idler_can_do_keeps_its_own_refusal():

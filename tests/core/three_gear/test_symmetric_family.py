@@ -155,7 +155,9 @@ def test_refuses_what_is_out_of_range():
         frame_ratio_for_back_step(-1.0, math.radians(-1.0))
     with pytest.raises(NoSolution, match=r"frame over crank: 1 \(limit > 1, "):
         symmetric_linkage(1.0, 100.0)
-    with pytest.raises(NoSolution, match=r"speed: -1 to 100 1/min .0 <= min < max"):
+    with pytest.raises(NoSolution, match=r"speed: -1 to 100 1/min .0 <= min < max") as refusal:
         frame_ratio_for_speed_band(-1.0, -1.0, 100.0)
-    with pytest.raises(NoSolution, match=r"speed: 100 to 100 1/min .0 <= min < max"):
+    assert refusal.value.fix.startswith("set speed.min to 0 or more")
+    with pytest.raises(NoSolution, match=r"speed: 100 to 100 1/min .0 <= min < max") as refusal:
         frame_ratio_for_speed_band(-1.0, 100.0, 100.0)
+    assert refusal.value.fix == "set speed.max above speed.min"

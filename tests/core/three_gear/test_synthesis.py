@@ -461,6 +461,9 @@ def test_limits_that_no_idler_keeps():
     with pytest.raises(NoSolution, match=r"no idler from 17 to 400") as refusal:
         _ = design("synth dwell", gears=EQUAL, dwell={"angle": 230.0}, limits={"transmission_angle": 89.0}).idler_teeth
     assert refusal.value.key == "gears.idler"
+    lowered = float(refusal.value.fix.removeprefix("set limits.transmission_angle to "))
+    limits = {"transmission_angle": lowered}
+    assert design("synth dwell", gears=EQUAL, dwell={"angle": 230.0}, limits=limits).idler_teeth <= 400
 
 
 # Advice
