@@ -36,6 +36,7 @@ from gearlink.core.machines.three_gear.momentary import (
     is_internal,
     least_eccentricity,
     shape,
+    strictly_within,
 )
 from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.roots import bracketed_root
@@ -435,18 +436,19 @@ def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assemb
         >>> round(momentary_ring_linkage(24.0, 17.0, -54.0, 22.0).frame, 9)
         49.532212052
     """
-    family, found = with_crank(r1, r3, r5, crank, assembly), shape(r1, r3, r5)
+    found = shape(r1, r3, r5)  # gears that never just stop are refused whatever the crank
+    family = with_crank(r1, r3, r5, crank, assembly)
     if family.low is None:
         raise NoSolution(family.why)
     if crank >= found.high:
         raise NoSolution(
-            f"crank: {unlike(crank, found.high)} mm (for a momentary dwell {within(found.low, found.high, 'mm')})",
-            fix=f"set the crank from {within(found.low, found.high, 'mm')}",
+            f"crank: {unlike(crank, found.high)} mm (for a momentary dwell {strictly_within(found.low, found.high)})",
+            fix=f"set the crank to {strictly_within(found.low, found.high)}",
         )
     if family.low == family.least:
         raise NoSolution(
             f"crank: {short(crank)} mm, which does not turn fully with the frame of its momentary dwell",
-            fix=f"set the crank from {within(found.low, found.high, 'mm')}",
+            fix=f"set the crank to {strictly_within(found.low, found.high)}",
         )
     return family.linkage(family.low)
 

@@ -203,9 +203,10 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
     e = eccentricity
     e_lo, e_hi = tangency_range(r1, r3, r5)
     if not e_lo < e < e_hi:
+        inside = strictly_within(e_lo, e_hi)
         raise NoSolution(
-            f"crank: {unlike(e, e_lo if e <= e_lo else e_hi)} mm (for the output to stop {_inside(e_lo, e_hi)})",
-            fix=f"set the crank to {_inside(e_lo, e_hi)}, or change the gears",
+            f"crank: {unlike(e, e_lo if e <= e_lo else e_hi)} mm (for the output to stop {inside})",
+            fix=f"set the crank to {inside}, or change the gears",
         )
     return touching(r1, r3, r5, e, e_lo if e < r1 else e_hi)
 
@@ -314,7 +315,7 @@ def _pole_sum(r1: float, r3: float, r5: float) -> float:
     return found
 
 
-def _inside(low: float, high: float) -> str:
+def strictly_within(low: float, high: float) -> str:
     """The cranks between two lengths which are none themselves, as a range that holds as printed."""
     return within(math.nextafter(low, math.inf), math.nextafter(high, 0.0), "mm")
 
@@ -330,8 +331,8 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
             what = "cannot turn with the frame of its momentary dwell"
         raise NoSolution(
             f"crank: {unlike(eccentricity, low if eccentricity <= low else high)} mm, which {what} (for a "
-            f"momentary dwell of these gears {_inside(low, high)})",
-            fix=f"set the crank to {_inside(low, high)}, or change the gears",
+            f"momentary dwell of these gears {strictly_within(low, high)})",
+            fix=f"set the crank to {strictly_within(low, high)}, or change the gears",
         )
     return tangency(r1, r3, r5, eccentricity)
 
@@ -360,8 +361,8 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
         low, high = sorted(math.sqrt(max(0.0, found.frame_squared(e))) for e in (found.low, found.high))
         raise NoSolution(
             f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
-            f"{_inside(low, high)})",
-            fix=f"set the frame from {_inside(low, high)}",
+            f"{strictly_within(low, high)})",
+            fix=f"set the frame from {strictly_within(low, high)}",
         )
     return math.sqrt(square)
 

@@ -166,7 +166,7 @@ class FamilyTask(Task):
         section, gears = getattr(self.spec, self.section), self.spec.gears
         if section is None:
             return False
-        if section.balanced and gears.crank == gears.output:
+        if section.balanced and gears.crank == gears.output > 0:
             return False  # equal gears are balanced by the symmetric family
         return bool(section.crank or section.frame or section.balanced)
 
@@ -187,9 +187,18 @@ class FamilyTask(Task):
         return families.balanced(*radii, self.spec.assembly)
 
     def require_gears(self) -> None:
-        """Equal ones, where the closed forms are to serve."""
+        """Equal external ones, where the closed forms are to serve."""
         gears = self.spec.gears
-        if not self.general and gears.crank != gears.output:
+        if self.general:
+            return
+        if gears.crank < 0:
+            teeth = -gears.crank if gears.output < 0 else gears.output
+            raise NoSolution(
+                f"this synthesis applies to external gears on crank and output: {gears.crank} teeth are a ring",
+                key="gears.crank",
+                fix=f"set gears.crank and gears.output to {teeth}",
+            )
+        if gears.crank != gears.output:
             raise NoSolution(
                 f"this synthesis applies to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
                 "teeth must be equal",
@@ -198,8 +207,8 @@ class FamilyTask(Task):
             )
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:
-        """Unequal gears are wrong with every idler."""
-        return refusal.key != "gears.output"
+        """Unequal gears and a ring on the crank are wrong with every idler."""
+        return refusal.key not in ("gears.output", "gears.crank")
 
     def linkage_of(self, idler: int) -> FourBar:
         """Links of the family for an idler."""

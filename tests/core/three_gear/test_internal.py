@@ -282,6 +282,33 @@ def test_ring_on_the_crank_is_analysed_and_refused_by_syntheses() -> None:
     assert caught.value.key == "gears.crank"
 
 
+def test_the_printed_range_of_cranks_of_a_ring_excludes_its_end() -> None:
+    """The crank as long as the radius of gear 1, 16 mm, was refused as not "0.7143 to 16 mm"."""
+    with pytest.raises(NoSolution, match=r"0\.7143 to 15\.99 mm"):
+        families.momentary_ring_linkage(16.0, 16.0, -43.5, 16.0)
+    assert families.momentary_ring_linkage(16.0, 16.0, -43.5, 15.99).kind() == "crank-rocker"
+
+
+@pytest.mark.parametrize("idler", [34, None])
+@pytest.mark.parametrize(
+    ("command", "asked"),
+    [
+        ("synth dwell", {"dwell": {"window": 40.9, "tolerance": 0.5}}),
+        ("synth dwell", {"dwell": {"window": 69.3, "tolerance": 0.5, "balanced": True}}),
+        ("synth back-step", {"back_step": {"angle": 3}}),
+        ("synth variable-speed", {"speed": {"min": 100, "max": 200}}),
+        ("synth momentary-dwell", {"momentary": {"eccentricity": 20}}),
+    ],
+)
+def test_two_equal_rings_are_refused_at_the_crank_gear(command: str, asked: dict[str, Any], idler: int | None) -> None:
+    """A file was told "i3: 0.5574 (limit < 0)" at its task, and to give a ratio, which it does not contain."""
+    gears = {"module": 1, "crank": -61, "output": -61} | ({} if idler is None else {"idler": idler})
+    made = design({"kind": "three-gear-four-bar", "name": "x", "gears": gears, **asked}, command=command)
+    with pytest.raises(NoSolution, match="ring") as caught:
+        made.report(command)
+    assert caught.value.key == "gears.crank"
+
+
 @pytest.mark.parametrize(
     ("keys", "key", "words"),
     [
