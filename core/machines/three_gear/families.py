@@ -60,7 +60,8 @@ class Family:
     linkage : of the unknown [mm]
     minimum, high : the range of the unknown [mm]
     low : the value [mm] at which the output just stops, or `minimum`; None where it never stops
-    why : str - the reason for that
+    why : str - the reason for that, or why none steps back
+    key : str - the key of the file that is to blame
     """
 
     linkage: Callable[[float], FourBar]
@@ -68,6 +69,7 @@ class Family:
     low: float | None
     high: float
     why: str = ""
+    key: str = ""
 
     def ends(self) -> tuple[float, float]:
         """The range of linkages that turn, without its ends."""
@@ -80,7 +82,7 @@ class Family:
             NoSolution - where none does
         """
         if self.low is None:
-            raise NoSolution(self.why)
+            raise NoSolution(self.why, key=self.key)
         return self._inside(self.low, _AFTER_LOW)
 
     def _inside(self, low: float, margin: float) -> tuple[float, float]:
@@ -114,7 +116,7 @@ def longest_crank(frame: float, b: float, c: float) -> float:
     if not high > 0.0:
         raise NoSolution(
             f"frame: {short(frame)} mm, in which no crank turns fully (coupler {short(b)}, rocker {short(c)} mm)",
-            fix=f"set the frame from {within(abs(b - c), b + c, 'mm')}",
+            fix=f"set the frame to {within(abs(b - c), b + c, 'mm')}",
         )
     return high
 
@@ -169,11 +171,12 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
         return _ring_with_frame(r1, r3, r5, frame, assembly)
     b, c = r1 + r3, r3 + r5
     high = longest_crank(frame, b, c)
+    low, why = 0.0, ""
     try:
         low = eccentricity_for_frame(r1, r3, r5, frame)
-    except NoSolution:
-        low = 0.0
-    return Family(lambda e: FourBar(e, b, c, frame, assembly), 0.0, min(low, high), high)
+    except NoSolution as error:
+        why = f"{error.message}\n{error.fix}"
+    return Family(lambda e: FourBar(e, b, c, frame, assembly), 0.0, min(low, high), high, why)
 
 
 def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
@@ -213,7 +216,8 @@ def solved(
     low, high = family.stepping()
     least, most = measure(family.linkage(low)), measure(family.linkage(high))
     if most <= 0.0:
-        raise NoSolution(f"{what} is impossible: no linkage with this crank or frame makes the output step back")
+        why = family.why or f"{what} is impossible: no linkage with this crank or frame makes the output step back"
+        raise NoSolution(why, key=family.key if family.why else "")
     if not target <= most:
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
         limit = safely_below(math.degrees(share * most))

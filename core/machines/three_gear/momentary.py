@@ -362,7 +362,7 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
         raise NoSolution(
             f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
             f"{strictly_within(low, high)})",
-            fix=f"set the frame from {strictly_within(low, high)}",
+            fix=f"set the frame to {strictly_within(low, high)}",
         )
     return math.sqrt(square)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -178,12 +179,11 @@ class FamilyTask(Task):
         if momentary.is_internal(*radii):
             with at_key("gears.output" if radii[0] > 0.0 else "gears.crank"):
                 momentary.shape(*radii)  # a train that never just stops is refused whatever the links
-        if section.crank is not None:
-            with at_key(f"{self.section}.crank"):
-                return families.with_crank(*radii, section.crank, self.spec.assembly)
-        if section.frame is not None:
-            with at_key(f"{self.section}.frame"):
-                return families.with_frame(*radii, section.frame, self.spec.assembly)
+        for given, made in (("crank", families.with_crank), ("frame", families.with_frame)):
+            length, key = getattr(section, given), f"{self.section}.{given}"
+            if length is not None:
+                with at_key(key):
+                    return replace(made(*radii, length, self.spec.assembly), key=key)
         return families.balanced(*radii, self.spec.assembly)
 
     def require_gears(self) -> None:

@@ -432,6 +432,35 @@ def test_crank_outside_the_range_of_a_momentary_dwell(eccentricity, assembly):
     assert refusal.value.key == "momentary.eccentricity"
 
 
+@pytest.mark.parametrize(
+    ("command", "gears", "asked", "key", "words"),
+    [
+        (
+            "synth dwell",
+            (55, 19, 41),
+            {"dwell": {"crank": 20.0, "tolerance": 0.5, "window": 20}},
+            "dwell.crank",
+            r"crank: 20 mm \(limit > 25\.53 mm for the output to stop\)",
+        ),
+        (
+            "synth back-step",
+            (63, 34, 19),
+            {"back_step": {"frame": 89.64, "angle": 4.49}},
+            "back_step.frame",
+            r"frame: 89\.64 mm \(for a momentary dwell of these gears 91\.17 to 123 mm\)",
+        ),
+    ],
+)
+def test_a_crank_or_frame_that_never_steps_back_is_refused_at_its_key(command, gears, asked, key, words):
+    # the longest frame: d*(e_lo) = b + c - e_lo = 97 + 53 - 27.0 mm, the linkage stretched straight
+    crank, idler, output = gears
+    made = design(command, gears={"module": 2, "crank": crank, "idler": idler, "output": output}, **asked)
+    with pytest.raises(NoSolution, match=words) as refusal:
+        made.report(command)
+    assert refusal.value.key == key
+    assert refusal.value.fix.startswith("set the ")
+
+
 @pytest.mark.parametrize(("eccentricity", "key"), [(26.0, "momentary.eccentricity"), (2.0, "gears.idler")])
 def test_momentary_dwell_that_no_idler_makes(eccentricity, key):
     # a crank beyond gear 1 is too long with every idler; a short one only spoils the transmission angle
