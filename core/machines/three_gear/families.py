@@ -271,11 +271,16 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float, maxim
     below, above = sorted((least, most))
     if not below <= quotient <= above:
         limits = f"from {safely_above(below, 4)} to {safely_below(above, 4)} with these gears"
-        slow = f"at least {safely_above(below * maximum, 4)}, or use a longer crank"
-        fast = f"at most {safely_below(above * maximum, 4)}, or use a shorter crank"
+        slow = quotient < below
+        bound = (
+            f"at least {safely_above(below * maximum, 4)}" if slow else f"at most {safely_below(above * maximum, 4)}"
+        )
+        cranks = "a longer crank" if slow else "a shorter crank"
+        lengths = {"crank": cranks, "frame": "another frame"}
+        other = lengths.get(family.key.rpartition(".")[2], "other gears")
         raise NoSolution(
             f"min/max of the output speed: {short(quotient)} ({limits})",
-            fix=f"set speed.min to {slow if quotient < below else fast}",
+            fix=f"set speed.min to {bound}, or use {other}",
         )
     ends = (most - quotient, least - quotient)
     return family.linkage(bracketed_root(lambda x: reached(x) - quotient, low, high, ends=ends))

@@ -461,6 +461,21 @@ def test_a_crank_or_frame_that_never_steps_back_is_refused_at_its_key(command, g
     assert refusal.value.fix.startswith("set the ")
 
 
+@pytest.mark.parametrize(
+    ("given", "other"),
+    [({"frame": 70.81, "min": 513.52}, "another frame"), ({"crank": 30, "min": 850}, "a shorter crank")],
+)
+def test_a_band_of_speeds_out_of_reach_advises_what_the_file_gives(given, other):
+    gears = {"module": 2.5, "crank": 65, "idler": 22, "output": 19}
+    made = design("synth variable-speed", gears=gears, speed={"max": 854.9, **given})
+    with pytest.raises(NoSolution, match="min/max of the output speed") as refusal:
+        made.report("synth variable-speed")
+    assert refusal.value.fix.endswith(f", or use {other}")
+    least = float(refusal.value.fix.split(", or")[0].split()[-1])
+    repaired = design("synth variable-speed", gears=gears, speed={"max": 854.9, **given, "min": least})
+    assert repaired.quantity("speed_ratio_min").value > 0.0
+
+
 @pytest.mark.parametrize(("eccentricity", "key"), [(26.0, "momentary.eccentricity"), (2.0, "gears.idler")])
 def test_momentary_dwell_that_no_idler_makes(eccentricity, key):
     # a crank beyond gear 1 is too long with every idler; a short one only spoils the transmission angle
