@@ -37,10 +37,10 @@ def transition_too_early(follower: Compensation) -> NoSolution:
         f"the transition ends at cam angle {short(math.degrees(follower.transition_end))} deg, the synchronous zone at "
         f"{short(end)} deg"
     )
+    fix = f"set cam.transition_end above {safely_above(end)} deg, the farther the flatter the cam"
     if end >= 360.0:
-        return NoSolution(text, key="cam.transition_end", fix="shorten the zone")
-    later = f"set cam.transition_end above {safely_above(end)} deg, the farther the flatter the cam"
-    return turns_back(follower) or NoSolution(text, key="cam.transition_end", fix=later)
+        fix = "shorten the zone"
+    return turns_back(follower) or NoSolution(text, key="cam.transition_end", fix=fix)
 
 
 def return_too_late(follower: Compensation) -> NoSolution:

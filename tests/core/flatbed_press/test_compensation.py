@@ -11,6 +11,7 @@ Tolerances
 
 import json
 import math
+import re
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -394,10 +395,13 @@ def test_transition_must_end_after_the_zone():
 
 
 def test_zone_that_fills_the_turn_cannot_be_repaired_by_the_transition():
+    """It was told to be shortened, at the transition; how far says the place where the bed reverses, 360 deg here."""
     lift = follower(TY460, start=330.0, length=420.0)
-    with pytest.raises(NoSolution, match="shorten the zone") as refusal:
+    with pytest.raises(NoSolution, match="the bed reverses at input angle 360 deg") as refusal:
         _ = lift.segments
-    assert refusal.value.key == "cam.transition_end"
+    assert refusal.value.key == "sync.length"
+    length = float(re.findall(r"at most ([\d.]+) mm", refusal.value.fix)[0])
+    assert follower(TY460, start=330.0, length=length, transition_end=370.0).segments
 
 
 def test_return_must_end_before_the_next_sheet():
