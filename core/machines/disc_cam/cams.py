@@ -325,7 +325,9 @@ class FollowerCams:
             message = (
                 f"base_radius: {given:g} mm (limit > {low:g} mm and < {high:g} mm, center_distance with face_offset)"
             )
-            raise NoSolution(message, key="cam.base_radius", fix=f"set it between {low:g} mm and {high:g} mm")
+            raise NoSolution(
+                message, key="cam.base_radius", fix=f"set cam.base_radius between {low:g} mm and {high:g} mm"
+            )
         return Place(given, 0.0, distance, math.asin(share))
 
     def _face_room(self, start: float, follower: OscillatingFlat) -> float:

@@ -457,7 +457,7 @@ def test_the_preload_of_the_advice_holds_the_follower_also_where_its_spring_woul
         return next(iter(factory.design({**data, "spring": spring}, command="cam").check("lift-off")))
 
     advised = found(37.8).fix.split()
-    assert advised[:3] == ["raise", "spring.preload", "to"]
+    assert advised[:3] == ["increase", "spring.preload", "to"]
     assert found(float(advised[3])).status == "pass"
     assert float(advised[3]) < 43.95
 
@@ -490,4 +490,4 @@ def test_no_base_radius_beyond_the_centre_distance_of_a_rocking_face_is_advised(
     assert (one.status, one.fix) == ("fail", "give the motion more cam angle, or less lift")
     with pytest.raises(NoSolution, match=r"base_radius: 150 mm \(limit > 0 mm and < 140 mm") as refused:
         _ = factory.design({**data, "cam": {"base_radius": 150}}, command="cam").base_radius
-    assert refused.value.fix == "set it between 0 mm and 140 mm"
+    assert refused.value.fix == "set cam.base_radius between 0 mm and 140 mm"
