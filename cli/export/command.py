@@ -360,4 +360,4 @@ def _servo_rows(design: Any, rows: int | None, tolerance: float | None) -> int:
     if tolerance is None and given is not None:
         return int(design.servo_rows)
     within = DEFAULT_TOLERANCE if tolerance is None else tolerance
-    return rows_for(design.follower_motion, math.radians(within) if design.rocks else within)
+    return rows_for(design.follower_motion, within, rocks=design.rocks, key="--tolerance")

@@ -633,8 +633,7 @@ class Making:
         if servo.rows is not None:
             return servo.rows
         assert servo.tolerance is not None, "one of both stands in the file"
-        tolerance = math.radians(servo.tolerance) if self.spec.oscillates else servo.tolerance
-        return rows_for(self.cams.motion, tolerance)
+        return rows_for(self.cams.motion, servo.tolerance, rocks=self.spec.oscillates)
 
     @cached_property
     def servo_error(self) -> float | None:

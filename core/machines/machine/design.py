@@ -386,8 +386,7 @@ class Machine(OfMembers):
         servo = self.spec.servo
         if servo is None or servo.rows is not None:
             return None if servo is None else servo.rows
-        within = servo.tolerance or 0.0
-        return rows_for(self.follower_motion, math.radians(within) if self.rocks else within)
+        return rows_for(self.follower_motion, servo.tolerance or 0.0, rocks=self.rocks)
 
     @cached_property
     def servo_error(self) -> float | None:

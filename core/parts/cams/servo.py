@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Table
+from gearlink.core.base.report import Table, safely_above
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams.follower_motion import HERMITE, TURN
@@ -80,19 +80,25 @@ def greatest_error(motion: FollowerMotion, rows: int, *, end_side: int = -1) -> 
     return maximum_over(lambda phi: np.abs(between(phi)), joints=joints, fewest=_BETWEEN).value
 
 
-def rows_for(motion: FollowerMotion, tolerance: float) -> int:
-    """Rows of the first step whose error is within a tolerance [mm or rad].
+def rows_for(motion: FollowerMotion, tolerance: float, *, rocks: bool, key: str = "servo.tolerance") -> int:
+    """Rows of the first step whose error is within a tolerance.
 
+    Parameters
+        tolerance : float [mm, of a rocker deg]
+        key : str - of the file, or the option that gives it
     Raises
-        NoSolution - at `servo.tolerance`, where no step is fine enough
+        NoSolution - where no step is fine enough
     """
+    within, rows = math.radians(tolerance) if rocks else tolerance, 0
     for step in STEPS:
         rows = round(360.0 / step) + 1
         near = (np.arange(16.0 * (rows - 1)) + 0.5) * (TURN / (16.0 * (rows - 1)))
-        if (
-            float(np.abs(deviation(motion, rows, near)).max()) <= tolerance
-            and greatest_error(motion, rows) <= tolerance
-        ):
+        if float(np.abs(deviation(motion, rows, near)).max()) <= within and greatest_error(motion, rows) <= within:
             return rows
-    message = f"no step of the table meets the tolerance {tolerance:g}, not even {STEPS[-1]:g} deg"
-    raise NoSolution(message, key="servo.tolerance", fix="increase the tolerance")
+    error, unit = greatest_error(motion, rows), "deg" if rocks else "mm"
+    least = safely_above(math.degrees(error) if rocks else error)
+    raise NoSolution(
+        f"error of the position between rows {STEPS[-1]:g} deg apart: {least} {unit} (limit <= {tolerance:g} {unit})",
+        key="" if key.startswith("-") else key,
+        fix=f"set {key} to {least}",
+    )
