@@ -105,7 +105,8 @@ def speed_swing_share(frame_ratio: ArrayLike) -> Reals:
     wrong = ~((d >= 1.0) & (d < np.inf))
     if np.any(wrong):
         raise NoSolution(
-            f"frame over crank: {unlike(float(d[wrong].flat[0]), 1.0)} (limit > 1, where the linkage folds flat)"
+            f"frame over crank: {unlike(float(d[wrong].flat[0]), 1.0)} (limit >= 1, where the linkage folds flat)",
+            fix="begin the range at 1",
         )
     return np.asarray(1.0 / (d + 1.0 / d))
 

@@ -548,6 +548,8 @@ class ThreeGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed
         given, limit = math.degrees(self.output_tolerance), math.degrees(self.endless_tolerance)
         aside = f"net output rotation {short(2.0 * limit)} deg per revolution"
         fix = f"set the tolerance below {safely_below(limit)} deg: with a larger one the dwell never ends"
+        if self.spec.dwell is not None and self.spec.dwell.tolerance is None and self.task is not None:
+            fix = "reduce dwell.angle: the output steps back by more than it gains in a revolution"
         yield tolerance_judged(given, limit).check("dwell tolerance", fix, aside=aside)
 
     @cached_property

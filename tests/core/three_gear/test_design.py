@@ -481,3 +481,12 @@ def test_tolerances_below_what_double_precision_tells_are_refused(keys):
     with pytest.raises(ValueError, match=r"equal to 0\.000000001"):
         design(**EXAMPLE_3, **keys)
     assert design(**EXAMPLE_3, dwell_tolerance=1e-9).raw("tolerance_dwell_angle") > 0.0
+
+
+def test_a_dwell_angle_beyond_a_revolution_of_the_output_asks_for_a_smaller_one() -> None:
+    """The file has no tolerance that could be set: half of its back-step is taken for one."""
+    keys = {"gears": {"module": 1, "crank": 74, "output": 74}, "dwell": {"angle": 281}}
+    keys |= {"limits": {"transmission_angle": 31.62}}
+    made = factory.design({"kind": "three-gear-four-bar", **keys}, command="synth dwell")
+    (check,) = made.check("dwell-tolerance")
+    assert (check.status, check.fix.split(":")[0]) == ("fail", "reduce dwell.angle")
