@@ -1,13 +1,15 @@
 """The quick tests of a copy of this checkout, where little is as usual: `make test-elsewhere`.
 
 Its folder has a blank and an umlaut and is called gearlink, its user has no home, another locale, time zone and
-terminal, files that only the user may read, and a numpy without the processor's newer instructions; the tests come in
-another order. What a test takes from these by mistake fails here, and not first on somebody's machine.
+terminal, files that only the user may read, a numpy without the processor's newer instructions and the linear algebra
+of an old processor; the tests come in another order. What a test takes from these by mistake fails here, and not first
+on somebody's machine.
 """
 
 from __future__ import annotations
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -27,8 +29,9 @@ def environment(folder: Path, features: str) -> dict[str, str]:
     """What the tests find in their environment; `folder` is there already."""
     temporary = folder / "temporary files"
     temporary.mkdir()
+    blas = {"OPENBLAS_CORETYPE": "Nehalem"} if platform.machine() in ("x86_64", "AMD64") else {}
     usual = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "TERM")}
-    return usual | {
+    hostile = {
         "HOME": str(folder / "nowhere"),
         "TMPDIR": str(temporary),
         "LANG": "tr_TR.UTF-8",
@@ -39,6 +42,7 @@ def environment(folder: Path, features: str) -> dict[str, str]:
         "PYTHONHASHSEED": "4242",
         "NPY_DISABLE_CPU_FEATURES": features,
     }
+    return usual | blas | hostile
 
 
 def order() -> str:
