@@ -447,21 +447,25 @@ class RegisterDesign(Design):
         section, chosen, own = self.spec.tolerance, self.sampled_places, self.own_errors
         width = sum(one.coordinates for one in self.sources)
         points = replication(width + len(own[0]), self._sample_count, section.seed, number)
-        parts = deviations_of(self.sources, together(points[:, :width], coordinate_root(section, self.sources)))
-        found, errors = [], np.zeros(0)
-        for sign, beside in zip(SIGNS, own, strict=True):
-            if sign == SIGNS[0] or self.chain(chosen, sign) is not self.chain(chosen, SIGNS[0]):
-                errors = self.sampled_errors(chosen, sign, parts)
-                if chosen.size > 1:
-                    errors = errors - errors[0]
-                self._require_closed(errors, sign)
-            off = np.sort(np.abs(errors + _scattered(beside, points[:, width:])), axis=1)
-            found.append(off[:, -self._beyond :])
+        found: list[Reals] = [np.empty((chosen.size, 0))] * 2
+        missed = np.zeros((2, chosen.size))
+        for some in (points[start : start + _AT_ONCE] for start in range(0, len(points), _AT_ONCE)):
+            parts = deviations_of(self.sources, together(some[:, :width], coordinate_root(section, self.sources)))
+            errors = np.zeros(0)
+            for k, (sign, beside) in enumerate(zip(SIGNS, own, strict=True)):
+                if k == 0 or self.chain(chosen, sign) is not self.chain(chosen, SIGNS[0]):
+                    errors = self.sampled_errors(chosen, sign, parts)
+                    if chosen.size > 1:
+                        errors = errors - errors[0]
+                missed[k] += np.isnan(errors).sum(axis=1)
+                off = np.abs(errors + _scattered(beside, some[:, width:]))
+                found[k] = np.sort(np.concatenate([found[k], off], axis=1), axis=1)[:, -self._beyond :]
+        for sign, count in zip(SIGNS, missed, strict=True):
+            self._require_closed(float(count.max()) / len(points), sign)
         return np.array(found)
 
-    def _require_closed(self, errors: Reals, sign: int) -> None:
-        """Refuse a band outside of which no samples could lie but those that do not close."""
-        share = float(np.isnan(errors).mean(axis=1).max())
+    def _require_closed(self, share: float, sign: int) -> None:
+        """Refuse a band outside of which no samples could lie but those that do not close, of a share of them."""
         if share > 1.0 - _KEPT:
             first = max(self.budgets[SIGNS.index(sign)].rows, key=lambda row: row.limit * abs(row.gain)).source
             limit = short(100.0 * (1.0 - _KEPT))
@@ -591,6 +595,8 @@ SIGNS = (1, -1)
 MOST, ALL = "99.73 %", "worst case"
 """Which of the machines a band is of."""
 _SAMPLES = 16_384
+_AT_ONCE = 8192
+"""Samples that are closed together: memory does not grow with their number."""
 _KEPT = 0.9973
 _TITLES = {"worst": {"band": "register, all of the machines"}, "mc": {"band": "register, 99.73 % of the samples"}}
 """What a band is of by `register.method`, where that is not the usual one."""

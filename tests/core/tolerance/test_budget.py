@@ -250,3 +250,11 @@ def test_twist_of_a_shaft_counts_in_band_and_samples_alike() -> None:
     one, other = (register({"links.crank": {"plus_minus": 0.002}}, method=m, **twist) for m in ("rss", "mc"))
     assert one.band[0] > 40.0 * 3.0 / 500.0
     assert other.band == pytest.approx(one.band, rel=2e-3)
+
+
+def test_samples_in_portions_keep_the_same_band(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Portions of 100 and of all: the same samples, closed by Newton's method to rounding."""
+    sources = {"links.crank": {"plus_minus": 0.02}, "links.frame": {"limits": [-0.01, 0.05]}}
+    whole = register(sources, method="mc").band
+    monkeypatch.setattr("gearlink.core.studies.register._AT_ONCE", 100)
+    assert register(sources, method="mc").band == pytest.approx(whole, rel=1e-9)
