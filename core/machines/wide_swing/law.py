@@ -266,6 +266,10 @@ class ElasticLaw:
         """Torque of the device over J gamma/T^2: c."""
         return self.invariants(k, 2)[2]
 
+    def kinetic(self, k: Reals) -> Reals:
+        """Energy of motion over J (gamma/T)^2/2: b^2."""
+        return self.invariants(k, 1)[1] ** 2
+
     def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity, acceleration and jerk invariants, as many as asked for.
 

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from gearlink.core.machines.wide_swing.spec import GravityDevice, SwingSlider, WideSwingSpec
-    from gearlink.core.numerics.arrays import Reals
 
 MOST_STRETCH = 2.0
 """Stretch over closed length that a spring of steel bears at most."""
@@ -118,14 +117,19 @@ class Motion:
             return ElasticLaw(device, self.swing)
 
     @cached_property
+    def slider_drive(self) -> SliderDrive:
+        """Rod and slider on the rocker."""
+        section = self._slider_section
+        with at_key("slider.rod"):
+            return SliderDrive(section.crank, section.rod, math.radians(section.middle_angle), section.offset)
+
+    @cached_property
     def slider(self) -> SliderLaw:
         """The law of motion of rocker and slider together; a refusal at a dead centre names the angle to change."""
         return self._slider_with(self.rocker_inertia)
 
     def _slider_with(self, inertia: float) -> SliderLaw:
-        section = self._slider_section
-        with at_key("slider.rod"):
-            drive = SliderDrive(section.crank, section.rod, math.radians(section.middle_angle), section.offset)
+        drive = self.slider_drive
         try:
             with at_key("slider.middle_angle"):
                 massless = SliderLaw(self.device, self.swing, drive, 1.0)
@@ -133,7 +137,7 @@ class Motion:
         except NoSolution as error:
             if error.key != "slider.middle_angle":
                 raise
-            raise with_number(error, slider_repair(section, self.swing)) from error
+            raise with_number(error, slider_repair(drive, self.swing)) from error
 
     @property
     def _slider_section(self) -> SwingSlider:
@@ -154,28 +158,10 @@ class Motion:
         """The highest derivative that the law has."""
         return 3 if self.spec.slider is None else 2
 
-    def torque(self, k: Reals) -> Reals:
-        """Torque of the device that balances the inertia, over J gamma/T^2: c, with a slider (N/2) E_a.
-
-        Parameters
-            k : (N,) array - fractions of the stroke
-        """
-        return self.law.device_torque(k)
-
     @property
     def reference_inertia(self) -> float:
         """J_ref of rocker and slider, what stands for J in the energy parameter [kg m^2]."""
         return self._inertia_with(self.rocker_inertia, self.slider.stroke)[0]
-
-    def kinetic(self, k: Reals) -> Reals:
-        """Energy of motion over J (gamma/T)^2/2: b^2, with a slider j b^2.
-
-        Parameters
-            k : (N,) array - fractions of the stroke
-        """
-        if self.spec.slider is None:
-            return self.plain_law.invariants(k, 1)[1] ** 2
-        return self.slider.kinetic(k)
 
     @property
     def inertia(self) -> float:

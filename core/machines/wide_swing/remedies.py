@@ -13,13 +13,14 @@ from gearlink.core.base.remedies.ways import REFUSAL, at_least, at_most, down, e
 from gearlink.core.base.results import keep, kept
 from gearlink.core.base.spec_paths import changed, number_at
 from gearlink.core.machines.wide_swing.bodies import device_room
-from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.checks import HUB
 from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.slider import SliderDrive
     from gearlink.core.machines.wide_swing.spec import SwingDrive, SwingSlider
     from gearlink.core.machines.wide_swing.strokes import AnyCam
 
@@ -269,16 +270,14 @@ def with_number(error: NoSolution, repair: tuple[str, float] | None) -> NoSoluti
     return NoSolution(error.message, key=path, fix=f"set {path} to {value:.12g}")
 
 
-def slider_repair(section: SwingSlider, swing: float) -> tuple[str, float]:
+def slider_repair(drive: SliderDrive, swing: float) -> tuple[str, float]:
     """The arm's angle at mid-swing, or the swing, that keeps the slider off its dead centres."""
-    extended = -math.asin(section.offset / (section.rod + section.crank))
-    folded = math.pi - math.asin(section.offset / (section.rod - section.crank))
+    extended, folded = drive.dead_centers()
     half = 0.5 * (folded - extended)
-    given = math.radians(section.middle_angle)
     places = ((extended + half, half), (extended + half + math.pi, math.pi - half))
-    place, room = min(places, key=lambda p: abs(math.remainder(p[0] - given, 2.0 * math.pi)))
-    if 0.5 * swing < room and abs(math.remainder(place - given, 2.0 * math.pi)) > 1e-3:
-        return "slider.middle_angle", round(math.degrees(math.remainder(place, 2.0 * math.pi)), 2)
+    turn, room = min(places, key=lambda p: abs(math.remainder(p[0], math.tau)))
+    if 0.5 * swing < room and abs(math.remainder(turn, math.tau)) > 1e-3:
+        return "slider.middle_angle", round(math.degrees(math.remainder(drive.middle_angle + turn, math.tau)), 2)
     return "swing", at_most(math.degrees(1.9 * room), _DEGREES)
 
 
@@ -293,10 +292,7 @@ def even_middle_angle(section: SwingSlider) -> float | None:
 
     given = math.radians(section.middle_angle)
     grid = (given + np.linspace(-math.pi, math.pi, 91)).tolist()
-    values = [bend(angle) for angle in grid]
-    pairs = [i for i in range(90) if (values[i] > 0.0) != (values[i + 1] > 0.0)]
-    places = [bracketed_root(bend, grid[i], grid[i + 1], ends=(values[i], values[i + 1])) for i in pairs]
-    nearest = min(places, key=lambda place: abs(place - given), default=given)
+    nearest = min(roots_on(bend, grid), key=lambda place: abs(place - given), default=given)
     found = round(math.degrees(math.remainder(nearest, 2.0 * math.pi)), 2)
     return None if abs(math.remainder(found - section.middle_angle, 360.0)) < _SAME_ANGLE else found
 
@@ -355,7 +351,7 @@ def _refused(design: WideSwingDesign) -> Iterator[Change]:
     if spec.slider.rod <= spec.slider.crank + abs(spec.slider.offset):
         yield "slider.rod", at_least(3.0 * (spec.slider.crank + abs(spec.slider.offset)))
         return
-    yield slider_repair(spec.slider, motion.swing)
+    yield slider_repair(motion.slider_drive, motion.swing)
 
 
 def _reserve(design: WideSwingDesign) -> Iterator[Change]:

@@ -253,9 +253,9 @@ class DeviceSize:
             size = self.strength * (arm if unloader.type == "pneumatic" else arm * arm)
             length, force = arm * g.length(sine), size / arm * g.force(sine)
             lever = g.force(sine) * g.lever(np.abs(sine), cosine)
-        inertia = motion.inertia * motion.swing / motion.stroke_time**2 * motion.torque(k)
+        inertia = motion.inertia * motion.swing / motion.stroke_time**2 * motion.law.device_torque(k)
         torque, stored = 1e-3 * size * side * lever, 1e-3 * size * g.energy(sine, cosine)
-        moving = motion.inertia * motion.swing / motion.stroke_time**2 * 0.5 * motion.swing * motion.kinetic(k)
+        moving = motion.inertia * motion.swing / motion.stroke_time**2 * 0.5 * motion.swing * motion.law.kinetic(k)
         columns = {
             "k": (k, "1"),
             "angle": (np.degrees(-side * angle), "deg"),

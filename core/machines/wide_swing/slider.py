@@ -18,6 +18,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
@@ -222,10 +223,6 @@ class SliderLaw:
         _, first = slider_place(psi, self.drive.crank, self.drive.rod, self.drive.offset, 1)
         return self._inertia(self.swing / self.stroke * first)
 
-    def inertia(self, k: Reals) -> Reals:
-        """j at fractions of the stroke."""
-        return self._inertia(self._slider_rate(self._angle(*self.pendulum(k)))[0])
-
     def _inertia(self, rate: Number) -> Number:
         return self.rocker_share + (1.0 - self.rocker_share) * rate * rate
 
@@ -270,39 +267,13 @@ class SliderLaw:
         """k at which the rocker passes mid-swing."""
         return self.share_at(0.5 * math.pi)
 
-    @property
-    def velocity_peak(self) -> float:
-        """Largest velocity invariant of the rocker [-]."""
-        return self.peaks[0].value
-
-    @property
-    def acceleration_peak(self) -> float:
-        """Largest magnitude of the rocker's acceleration invariant [-]."""
-        return self.peaks[1].value
-
-    @property
-    def slider_velocity_peak(self) -> float:
-        """Largest magnitude of the slider's velocity invariant [-]."""
-        return self.peaks[2].value
-
-    @property
-    def slider_acceleration_peak(self) -> float:
-        """Largest magnitude of the slider's acceleration invariant [-]."""
-        return self.peaks[3].value
-
-    @property
-    def torque_peak(self) -> float:
-        """max |m|, m the torque of the device over J_ref gamma/T^2 [-]."""
-        return self.peaks[4].value
-
-    @property
-    def power_peak(self) -> float:
-        """max |m b| [-]."""
-        return self.peaks[5].value
+    velocity_peak, acceleration_peak = placed("peaks.0.value"), placed("peaks.1.value")
+    slider_velocity_peak, slider_acceleration_peak = placed("peaks.2.value"), placed("peaks.3.value")
+    torque_peak, power_peak = placed("peaks.4.value"), placed("peaks.5.value")
 
     @cached_property
     def peaks(self) -> tuple[Extreme, ...]:
-        """Maxima over the stroke, of one motion: of b, |c|, |b_s|, |c_s|, |m| and |m b|."""
+        """Maxima over the stroke, of one motion: of b, |c|, |b_s|, |c_s|, |m| and |m b|, m that torque."""
 
         def each(v: Reals) -> tuple[Reals, ...]:
             b, c, rate, change = self._motion(np.cos(v), np.sin(v))
@@ -368,7 +339,8 @@ class SliderLaw:
 
     def kinetic(self, k: Reals) -> Reals:
         """Energy of motion over J_ref (gamma/T)^2/2: j b^2."""
-        return np.asarray(self.inertia(k) * self.rates(k)[0] ** 2)
+        b, _, rate, _ = self._motion(*self.pendulum(k))
+        return np.asarray(self._inertia(rate) * b**2)
 
     def rates(self, k: Reals) -> tuple[Reals, Reals]:
         """b and c at fractions of the stroke."""
@@ -389,11 +361,8 @@ class SliderLaw:
         sine, cosine = self.pendulum(k)
         start = self.drive.depth(np.array([-0.5 * self.swing]))[0]
         place = self.drive.depth(self._angle(sine, cosine))[0]
-        return (place - start) / self.stroke, *self._slider_rates(sine, cosine)
-
-    def _slider_rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
         b, c, rate, change = self._motion(sine, cosine)
-        return rate * b, rate * c + change * b**2
+        return (place - start) / self.stroke, rate * b, rate * c + change * b**2
 
     def rates_at(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals, Reals]:
         """Rocker angle from mid-swing [rad], velocity and acceleration invariants from sin u and cos u."""

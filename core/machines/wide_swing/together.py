@@ -372,7 +372,7 @@ def _find_forces(designs: Sequence[WideSwingDesign]) -> None:
     law = many.law.law if isinstance(many.law, AimedLaw) else many.law
     motions = [design.motion for design in designs]
     columns = {name: column([getattr(motion, name) for motion in motions]) for name in _OF_FORCE}
-    unloading = Unloading(designs[0].spec, SimpleNamespace(torque=law.device_torque, **columns))  # type: ignore[arg-type]
+    unloading = Unloading(designs[0].spec, SimpleNamespace(law=law, **columns))  # type: ignore[arg-type]
     reserve = column([design.unloading.size.reserve for design in designs])
     keep(unloading, size=SimpleNamespace(reserve=reserve))
     hand_on(designs, contact_force=unloading.greatest_force(many))

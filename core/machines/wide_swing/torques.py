@@ -136,7 +136,7 @@ class Unloading:
     @cached_property
     def _torque_series(self) -> CosineSeries:
         with at_key("shaft"):
-            return acceleration_series(self.motion.torque)
+            return acceleration_series(self.motion.law.device_torque)
 
     @property
     def dynamic_coefficient(self) -> float:
@@ -191,7 +191,7 @@ class Unloading:
             )
         scale, share = motion.inertia * motion.swing / time**2, self.left_share
         rigid, elastic, ratio = (np.zeros_like(angle) for _ in range(3))
-        rigid[inside] = scale * motion.torque(k)
+        rigid[inside] = scale * motion.law.device_torque(k)
         elastic[inside], elastic[~inside] = response(k), response.after(angle[~inside] / stroke)
         ratio[inside] = motion.swing / motion.cycle_angle * motion.law.invariants(k, 1)[1]
         torques = {"": rigid, "_balanced": share * rigid, "_elastic": share * scale * elastic}
@@ -268,7 +268,7 @@ class Unloading:
 
     def _along(self, cam: AnyCam, k: Reals) -> Reals:
         """m/cos delta, negative in run-out."""
-        torque = self.motion.torque(k) * np.where(k < cam.middle, 1.0, -1.0)
+        torque = self.motion.law.device_torque(k) * np.where(k < cam.middle, 1.0, -1.0)
         return np.asarray(torque / np.cos(cam.pressure_angle(k)))
 
     def greatest_force(self, cam: AnyCam) -> float:

@@ -29,7 +29,7 @@ def swing() -> Any:
 def inertia_torque(loads: Any) -> Any:
     """Torque on the rocker that moves it in the working stroke at the design speed [N m]."""
     motion = loads.design.motion
-    return motion.inertia * motion.swing / motion.working_time**2 * motion.torque(K)
+    return motion.inertia * motion.swing / motion.working_time**2 * motion.law.device_torque(K)
 
 
 def test_stroke_against_the_reference(swing: Any) -> None:

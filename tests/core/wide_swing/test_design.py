@@ -252,7 +252,7 @@ class TestCombined:
         own = design(cam=None, slider=SLIDER)
         k = np.linspace(0.0, 1.0, 2001)
         # the power of the inertia is the slope of the energy of motion, j b^2/2
-        slope = np.gradient(0.5 * own.motion.kinetic(k), k)
+        slope = np.gradient(0.5 * own.motion.law.kinetic(k), k)
         found = own.quantity("power_peak")
         assert found is not None
         # central differences over 1/2000 of the stroke

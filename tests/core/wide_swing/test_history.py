@@ -47,7 +47,7 @@ def test_history_is_the_motion_of_the_shaft(slider: dict[str, Any] | None, dampi
     share = -(0.24 + 0.02)
 
     def rate(t: float, y: Any, driven: float) -> list[float]:
-        load = share * scale * float(motion.torque(np.array([min(1.0, t / stroke)]))[0]) if driven else 0.0
+        load = share * scale * float(motion.law.device_torque(np.array([min(1.0, t / stroke)]))[0]) if driven else 0.0
         return [y[1], own**2 * (load - y[0]) - 2.0 * damping * own * y[1]]
 
     time = 1e-3 * at["time"]

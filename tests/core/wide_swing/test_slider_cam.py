@@ -249,14 +249,14 @@ def test_way_home_of_rocker_and_slider() -> None:
 
     def energy(angle: Any) -> Any:
         at = way_home(cam, angle)
-        return 0.5 * motion.kinetic(at.k) * at.first**2
+        return 0.5 * motion.law.kinetic(at.k) * at.first**2
 
     def share(angle: Any) -> Any:
         return motion.law.invariants(way_home(cam, angle).k, 0)[0]
 
     # torque is the slope of the energy of motion over the rocker's angle
     work = (energy(turned + step) - energy(turned - step)) / (share(turned + step) - share(turned - step))
-    expected = work / motion.torque(k) * cam.drive.crank_span**2 / motion.swing * motion.swing
+    expected = work / motion.law.device_torque(k) * cam.drive.crank_span**2 / motion.swing * motion.swing
     np.testing.assert_allclose(way_home_ratio(cam, k), expected, rtol=1e-6)
 
 
