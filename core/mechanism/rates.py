@@ -6,6 +6,7 @@ closes two links and a rod to a slider. Each has as many derivatives as its inpu
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Self, TypeVar
 
 import numpy as np
@@ -130,6 +131,27 @@ def mixed(*parts: tuple[float, Turn]) -> Turn:
     """
     order = min(turn.order for _, turn in parts)
     return Turn(*(np.asarray(sum(share * turn[i] for share, turn in parts)) for i in range(order + 1)))
+
+
+def chained(outer: Sequence[Reals], inner: Sequence[Reals]) -> list[Reals]:
+    """Derivatives of g(u(x)) by x, as many as both have.
+
+    y' = g' u',  y'' = g'' u'^2 + g' u'',  y''' = g''' u'^3 + 3 g'' u' u'' + g' u'''
+
+    Parameters
+        outer : (N,) arrays - g and its derivatives by u, up to the third
+        inner : (N,) arrays - u and its derivatives by x
+    Source
+        chain rule
+    """
+    found, most = [np.asarray(outer[0])], min(len(outer), len(inner)) - 1
+    if most >= 1:
+        found.append(outer[1] * inner[1])
+    if most >= 2:
+        found.append(outer[2] * inner[1] ** 2 + outer[1] * inner[2])
+    if most >= 3:
+        found.append(outer[3] * inner[1] ** 3 + 3.0 * outer[2] * inner[1] * inner[2] + outer[1] * inner[3])
+    return found
 
 
 def from_start(turn: Turn, start: float) -> Turn:

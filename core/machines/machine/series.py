@@ -20,6 +20,7 @@ from gearlink.core.base.errors import GearlinkError, NoSolution, in_section, nam
 from gearlink.core.base.many_designs import in_groups
 from gearlink.core.base.wording import short
 from gearlink.core.mechanism.motion import TURN, Course, Motion
+from gearlink.core.mechanism.rates import chained
 from gearlink.core.numerics.arrays import Reals, distinct
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.numerics.roots_sweep import zeros_of
@@ -35,27 +36,6 @@ _WHOLE = 1e-9
 _AT_JOINT = 1e-11  # rad or mm: an input that is off a joint by the rounding of its phase stands on it
 _SCALE = {"rad": math.pi / 180.0, "mm": 1.0}
 """Of the units of design files in those of motions."""
-
-
-def chained(outer: Sequence[Reals], inner: Sequence[Reals]) -> list[Reals]:
-    """Derivatives of g(u(x)) by x, as many as both have.
-
-    y' = g' u',  y'' = g'' u'^2 + g' u'',  y''' = g''' u'^3 + 3 g'' u' u'' + g' u'''
-
-    Parameters
-        outer : (N,) arrays - g and its derivatives by u, up to the third
-        inner : (N,) arrays - u and its derivatives by x
-    Source
-        chain rule
-    """
-    found, most = [np.asarray(outer[0])], min(len(outer), len(inner)) - 1
-    if most >= 1:
-        found.append(outer[1] * inner[1])
-    if most >= 2:
-        found.append(outer[2] * inner[1] ** 2 + outer[1] * inner[2])
-    if most >= 3:
-        found.append(outer[3] * inner[1] ** 3 + 3.0 * outer[2] * inner[1] * inner[2] + outer[1] * inner[3])
-    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ from gearlink.core.base.errors import NoSolution, at_key, in_section
 from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.wiring import FRAME
+from gearlink.core.mechanism.rates import chained
 from gearlink.core.numerics.arrays import unit_vector
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams.checks import (
@@ -123,17 +124,14 @@ class Support(NamedTuple):
         """h and its derivatives by the direction, up to the third."""
         phi = self.angles(chi)
         way, h = self.faces(phi, order, -side * self.sense)
-        found = [h[0]]
+        back = [phi]
         if order >= 1:
-            back = [1.0 / way[1]]
-            found.append(h[1] * back[0])
+            back.append(1.0 / way[1])
         if order >= 2:
-            back.append(-way[2] * back[0] ** 3)
-            found.append(h[2] * back[0] ** 2 + h[1] * back[1])
+            back.append(-way[2] * back[1] ** 3)
         if order >= 3:
-            back.append((3.0 * way[2] ** 2 * back[0] - way[3]) * back[0] ** 4)
-            found.append(h[3] * back[0] ** 3 + 3.0 * h[2] * back[0] * back[1] + h[1] * back[2])
-        return found
+            back.append((3.0 * way[2] ** 2 * back[1] - way[3]) * back[1] ** 4)
+        return chained(h, back)
 
     def angles(self, chi: Reals) -> Reals:
         """Cam angles at which the face has these directions; at a joint of the law upon it."""

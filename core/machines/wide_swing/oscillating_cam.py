@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -31,12 +31,13 @@ from gearlink.core.machines.wide_swing.cam import (
     too_small_swing,
 )
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
-from gearlink.core.numerics.arrays import Points, Reals, number_of, unit_vector
+from gearlink.core.mechanism.rates import Rates, Turn, carried, cross, fixed, mixed
+from gearlink.core.numerics.arrays import Points, Reals, number_of
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.fourbar.mechanism import turns
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.fourbar.sweep import solve
 
 
 @dataclass(frozen=True)
@@ -96,8 +97,8 @@ class CrankRockerDrive:
     @cached_property
     def _middle(self) -> tuple[float, float]:
         """Rocker angle at k = 1/2, and the sign of its velocity."""
-        middle = solve(self.linkage, np.array([0.5 * sum(self.crank_angles)]), 1)
-        return float(middle.rocker_angle[0]), math.copysign(1.0, float(middle.rocker_velocity[0]))
+        _, rocker = turns(self.linkage, np.array([0.5 * sum(self.crank_angles)]), 1)
+        return float(rocker.value[0]), math.copysign(1.0, float(rocker.first[0]))
 
     @property
     def rising(self) -> float:
@@ -113,10 +114,9 @@ class CrankRockerDrive:
         Returns
             rates : tuple of order + 1 (N,) arrays [rad] - chi and its derivatives
         """
-        sweep = solve(self.linkage, self.crank_angles[0] + k * self.crank_span, order, velocity=self.crank_span)
-        place, sign = self._middle
-        rates = (sweep.rocker_velocity, sweep.rocker_acceleration, sweep.rocker_jerk)[:order]
-        return (sign * (sweep.rocker_angle - place), *(sign * rate for rate in rates))
+        span, (place, sign) = self.crank_span, self._middle
+        _, rocker = turns(self.linkage, self.crank_angles[0] + k * span, order, velocity=span)
+        return (sign * (rocker.value - place), *(sign * rate for rate in rocker[1:]))
 
     @property
     def swing(self) -> float:
@@ -312,20 +312,14 @@ class OscillatingCam(StrokeCam):
 
     def _stop_at(self, stop: int) -> tuple[float, float, complex]:
         k = np.atleast_1d(self.places[stop])
-        chi, chi1, chi2, chi3 = self.drive.motion(k, 3)
-        swing, r = self.law.swing, self.ratio
-        view = self.law.middle_view(k)
-        phi1, phi2 = swing * view.velocity, swing * view.acceleration
+        swing, view = self.law.swing, self.law.middle_view(k)
         # at the ends the rocker stands still, and the jerk that the law gives it with it
-        phi3 = swing * self.law.middle_jerk if stop == MIDDLE else 0.0
-        arm = r * np.exp(1j * view.angle)
-        f, f1 = arm - 1.0, 1j * phi1 * arm
-        f2, f3 = (1j * phi2 - phi1**2) * arm, (1j * phi3 - 3.0 * phi1 * phi2 - 1j * phi1**3) * arm
-        second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
-        third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
-        third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
-        size = np.abs(second)
-        return number_of((np.conj(second) * third).imag / size**2), number_of(size), number_of(np.exp(1j * chi) * f)
+        jerk = np.asarray(swing * self.law.middle_jerk if stop == MIDDLE else 0.0)
+        cam = Turn(*self.drive.motion(k, 3))
+        rocker = Turn(view.angle, swing * view.velocity, swing * view.acceleration, jerk)
+        z = carried(carried(fixed(0j, k, order=3), cam, -1.0), mixed((1.0, cam), (1.0, rocker)), self.ratio)
+        size, place = np.abs(z.second), np.exp(1j * cam.value) * (self.ratio * np.exp(1j * view.angle) - 1.0)
+        return number_of(cross(z.second, z.third) / size**2), number_of(size), number_of(place)
 
     @property
     def transition_zone_estimate(self) -> float:
@@ -467,47 +461,27 @@ class OscillatingCam(StrokeCam):
 _TURN = 2.0 * np.pi
 
 
-class Home(NamedTuple):
-    """Where the cam stands on its way home, and how it goes on.
-
-    Fields
-        k : (N,) array - fraction of the stroke at which it stood there, from 1 to 0
-        first, second, third : (N,) arrays - derivatives of k by the crank angle; the third empty unless asked for
-    """
-
-    k: Reals
-    first: Reals
-    second: Reals
-    third: Reals
-
-
-def way_home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Home:
-    """The cam at crank angles of its way home.
+def way_home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Rates[Reals]:
+    """Fraction of the stroke at which the cam stood as at crank angles of its way home, from 1 to 0.
 
     psi(k) = 2 arg C - psi,  psi'(k) = 2 Im(C'/C) - 1,  psi''(k) = 2 Im(C''/C - (C'/C)^2)
     psi'''(k) = 2 Im(C'''/C - 3 C'' C'/C^2 + 2 (C'/C)^3)
 
     Parameters
         turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole revolution
-        order : 2 or 3 - of the derivatives
+        order : 2 or 3 - of the derivatives by the crank angle
     Notes
         C is the end of the rocker that carries the cam, seen from the crank's pivot: the crank pins of both ways are
         mirror images on that line. At both ends, where cam and rocker stand still, nothing is 0/0.
     """
-    bar, span = cam.drive.linkage, cam.drive.crank_span
-    found = solve(bar, cam.drive.crank_angles[0] + turned, order)
-    arm = bar.rocker * unit_vector(found.rocker_angle)
-    end = bar.frame + arm
-    speed = found.rocker_velocity
-    rate = 1j * speed * arm / end
-    curve = (1j * found.rocker_acceleration - speed**2) * arm / end
-    bend = curve - rate * rate
-    third = np.empty(0)
+    bar, start, span = cam.drive.linkage, cam.drive.crank_angles[0], cam.drive.crank_span
+    end = carried(fixed(bar.frame, turned, order=order), turns(bar, start + turned, order)[1], bar.rocker)
+    rate, curve = end.first / end.value, end.second / end.value
+    rates = [2.0 * rate.imag - 1.0, 2.0 * (curve - rate * rate).imag]
     if order > 2:
-        jerk = (1j * (found.rocker_jerk - speed**3) - 3.0 * speed * found.rocker_acceleration) * arm / end
-        third = 2.0 * (jerk - 3.0 * curve * rate + 2.0 * rate**3).imag / span
-    forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end) - 2.0 * cam.drive.crank_angles[0] - turned)
-    return Home(_within(forth, 0.0, span) / span, (2.0 * rate.imag - 1.0) / span, 2.0 * bend.imag / span, third)
+        rates.append(2.0 * (end.third / end.value - 3.0 * curve * rate + 2.0 * rate**3).imag)
+    forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end.value) - 2.0 * start - turned)
+    return Rates(_within(forth, 0.0, span) / span, *(each / span for each in rates))
 
 
 def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:
@@ -520,7 +494,7 @@ def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:
     """
     bar, start, span = cam.drive.linkage, cam.drive.crank_angles[0], cam.drive.crank_span
     forth = k * span
-    end = bar.frame + bar.rocker * np.exp(1j * solve(bar, start + forth, 0).rocker_angle)
+    end = bar.frame + bar.rocker * np.exp(1j * turns(bar, start + forth, 0)[1].value)
     return _within(_from(0.5 * span, 2.0 * np.angle(end) - 2.0 * start - forth), span, _TURN)
 
 

@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam, mirrored
-from gearlink.core.machines.wide_swing.oscillating_cam import Home, OscillatingCam, crank_angle, way_home
-from gearlink.core.mechanism.rates import Turn
+from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam, crank_angle, way_home
+from gearlink.core.mechanism.rates import Rates, Turn, chained
 from gearlink.core.numerics.arrays import Points, Reals, unit_vector
 
 if TYPE_CHECKING:
@@ -155,11 +155,6 @@ class WayHome(Stroke):
         return 2.0 * math.pi - self.cam.cycle_angle
 
     @property
-    def words(self) -> str:
-        """What it is called."""
-        return "return stroke"
-
-    @property
     def cam_words(self) -> str:
         """It is the same cam as that of the stroke."""
         return self.words
@@ -169,15 +164,15 @@ class WayHome(Stroke):
         """It is the same cam that goes back."""
         return False
 
-    def _home(self, k: Reals, order: int = 2) -> Home:
+    def _home(self, k: Reals, order: int = 2) -> Rates[Reals]:
         """The cam there; at both ends, where the profile bends without bound, it stands at the stop itself."""
-        at = way_home(self.cam, self.start + k * self.width, order)
-        return at._replace(k=np.where(k == 0.0, 1.0, np.where(k == 1.0, 0.0, at.k)))
+        place, *rates = way_home(self.cam, self.start + k * self.width, order)
+        return Rates(np.where(k == 0.0, 1.0, np.where(k == 1.0, 0.0, place)), *rates)
 
     def profile(self, k: Reals) -> tuple[Reals, Reals]:
         """The place goes backwards, and its speed is that over the stroke's."""
         at = self._home(k)
-        return at.k, at.first * self.cam.cycle_angle
+        return at.value, at.first * self.cam.cycle_angle
 
     def at_profile(self, place: float) -> float:
         """Fraction k of the way home at which the cam stands at a place of the stroke."""
@@ -187,16 +182,8 @@ class WayHome(Stroke):
     def turn(self, k: Reals, order: int) -> Turn:
         """The rocker follows the cam, at whose places the profile has it as in the stroke."""
         at, motion = self._home(k, max(order, 2)), self.design.motion
-        a, *rates = motion.law.invariants(at.k, order)
-        parts = [(a - 0.5) * motion.swing]
-        if order > 0:
-            parts.append(motion.swing * rates[0] * at.first)
-        if order > 1:
-            parts.append(motion.swing * (rates[1] * at.first**2 + rates[0] * at.second))
-        if order > 2:
-            bend = 3.0 * rates[1] * at.first * at.second + rates[0] * at.third
-            parts.append(motion.swing * (rates[2] * at.first**3 + bend))
-        return Turn(*parts)
+        a, *rates = motion.law.invariants(at.value, order)
+        return Turn(*(motion.swing * each for each in chained([a - 0.5, *rates], at)))
 
     @cached_property
     def parts(self) -> Parts:

@@ -249,10 +249,10 @@ def test_way_home_of_rocker_and_slider() -> None:
 
     def energy(angle: Any) -> Any:
         at = way_home(cam, angle)
-        return 0.5 * motion.law.kinetic(at.k) * at.first**2
+        return 0.5 * motion.law.kinetic(at.value) * at.first**2
 
     def share(angle: Any) -> Any:
-        return motion.law.invariants(way_home(cam, angle).k, 0)[0]
+        return motion.law.invariants(way_home(cam, angle).value, 0)[0]
 
     # torque is the slope of the energy of motion over the rocker's angle
     work = (energy(turned + step) - energy(turned - step)) / (share(turned + step) - share(turned - step))
