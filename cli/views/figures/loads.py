@@ -195,7 +195,7 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_re
         axes.plot(x, values, color=color, linewidth=1.5, linestyle=line, label=stroke.words)
         if column.endswith("pressure"):
             _too_much(axes, design, x, values)
-    rests = design.pressing.rests if in_rest is not None else ()
+    rests = design.rests if in_rest is not None else ()
     for number, rest in enumerate(rests):
         phi = np.linspace(rest.start, rest.start + rest.width, 61)
         label = None if number else "rests"

@@ -43,6 +43,7 @@ from gearlink.core.machines.wide_swing.sizing import ISENTROPIC, OF_CYLINDER, OF
 from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
 from gearlink.core.machines.wide_swing.strokes import AnyCam
 from gearlink.core.machines.wide_swing.torques import FlankImpact, Unloading, flank_impact
+from gearlink.core.numerics.arrays import range_rows
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, minimum_over, share_of
 from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
@@ -498,10 +499,8 @@ Places: TypeAlias = SimpleNamespace
 """Values by their names."""
 
 
-def _k(samples: int | None) -> Any:
-    count = samples or 100
-    rows = row_numbers(samples, count + 1)
-    return np.arange(rows.start, rows.stop) / count
+def _k(samples: int | None) -> Reals:
+    return range_rows(0.0, 1.0, samples or 100)
 
 
 def _speed_shares() -> Any:
@@ -662,6 +661,11 @@ class WideSwingDesign(Design):
                 return WideSwingCam(layout, law, angle, *lengths)
         with at_key("cycle"):
             return WideSwingCam(layout, law, angle, *lengths, angle_words=f"cycle.{phase}")
+
+    @property
+    def has_return_cam(self) -> bool:
+        """Whether a second cam turns the other way over the whole cycle."""
+        return self.spec.cycle is not None and self.spec.layout != "twin-rocker"
 
     @property
     def other_cam(self) -> WideSwingCam:

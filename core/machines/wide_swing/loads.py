@@ -31,6 +31,7 @@ from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.machines.wide_swing.strokes import AnyCam, Parts, Stroke, strokes_of
 from gearlink.core.mechanism.dynamics import Force, Mass, Torque
 from gearlink.core.mechanism.rates import TURNING_BACK
+from gearlink.core.numerics.arrays import range_rows
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
 from gearlink.core.numerics.together import kept_last
 from gearlink.core.studies import codes
@@ -45,7 +46,7 @@ from gearlink.core.studies.loads.panels import Panels
 from gearlink.core.studies.loads.vibration import Vibrating
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from gearlink.core.machines.wide_swing.loads_spec import SwingLoads as Section
     from gearlink.core.machines.wide_swing.spec import WideSwingSpec
@@ -196,7 +197,7 @@ class SwingStroke:
     @property
     def pressed(self) -> dict[str, Extreme]:
         """Maximum force, pressure and depth of the shear, and the minimum force, where the roller touches."""
-        return self.loads.pressing.of_strokes[self.loads.strokes.index(self)]
+        return self.loads.of_strokes[self.loads.strokes.index(self)]
 
     @cached_property
     def shear_depth_at_greatest_pressure(self) -> float:
@@ -244,41 +245,15 @@ _TURN_BY = 15
 """Steps in which a direction is turned [deg]."""
 
 
-def resonance_of_loads(design: WideSwingLoads) -> Iterator[Check]:
-    """GL611, of a whole revolution."""
-    return resonance(design) if design.whole else iter(())
-
-
-def changes_apart(design: WideSwingLoads) -> bool:
-    """Whether device and roller change sides at different places."""
-    return any(check.status == "fail" for check in design.design.check("side-change"))
-
-
-def candidates_of_loads(design: WideSwingLoads, check: str) -> Iterator[Remedy]:
-    """What lets the device hold the roller all the way, alone and with more reserve, and directions that are clear."""
-    if check == "body-clearance":
-        yield from _clear_directions(design)
-    section, reserve = design.spec.slider, design.design.unloading.size.reserve
-    if check != "contact-loss" or section is None or not changes_apart(design):
-        return
-    for changes in side_changes(section):
-        yield changes
-        yield from ((*changes, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.25, 1.0))
-
-
 def _clear_directions(design: WideSwingLoads) -> Iterator[Remedy]:
     """The nearest direction each way in which every body keeps clear, by geometry alone."""
     for name in design.own_directions:
         given = getattr(design.section, name)
         for sense in (1.0, -1.0) if given is not None else ():
-            turned = (_in_turn(given + sense * step) for step in range(_TURN_BY, 180, _TURN_BY))
+            turned = (math.remainder(given + sense * step, 360.0) for step in range(_TURN_BY, 180, _TURN_BY))
             found = next((each for each in turned if _is_clear(design, f"loads.{name}", each)), None)
             if found is not None:
                 yield ((f"loads.{name}", found),)
-
-
-def _in_turn(angle: float) -> float:
-    return math.remainder(angle, 360.0)
 
 
 def _is_clear(design: WideSwingLoads, path: str, value: float) -> bool:
@@ -309,38 +284,44 @@ class SwingRest:
         """What it is called."""
         return "far rest" if self.stroke.name == "main" else "near rest"
 
+    @property
+    def _end(self) -> float:
+        return self.start + self.width
+
+    def _inside(self, phi: Reals) -> Reals:
+        """Input angles that are not those of the strokes."""
+        return np.clip(phi, self.start + _ENDS, self._end - _ENDS)
+
     def force(self, phi: Reals) -> Reals:
         """Force of the roller on the arc [N] at input angles, out of the reactions."""
-        inside = np.clip(phi, self.start + _ENDS, self.start + self.width - _ENDS)
-        found: Reals = self.stroke.loads.machine.reactions(inside).unknowns["roller"][0]
+        found: Reals = self.stroke.loads.machine.reactions(self._inside(phi)).unknowns["roller"][0]
         return found
+
+    def _extremes(self, *wanted: tuple[Callable[[Reals], Reals], bool]) -> list[float]:
+        found = extremes_over(wanted, self.start, self._end, joints=self._joints, samples=128)
+        return [each.value for each in found]
 
     @property
     def least_standing(self) -> float:
         """Minimum force on the arc without friction [N]; no mass moves meanwhile that the roller bears."""
 
         def force(phi: Reals) -> Reals:
-            inside = np.clip(phi, self.start + _ENDS, self.start + self.width - _ENDS)
-            found: Reals = self.stroke.loads.machine.parted(inside)[0].unknowns["roller"][0]
+            found: Reals = self.stroke.loads.machine.parted(self._inside(phi))[0].unknowns["roller"][0]
             return found
 
-        end = self.start + self.width
-        return extremes_over([(force, False)], self.start, end, joints=self._joints, samples=128)[0].value
+        return self._extremes((force, False))[0]
 
     @property
     def _joints(self) -> list[float]:
         """Input angles inside at which what the file lets act jumps or bends [rad]."""
-        end = self.start + self.width
-        return [angle for angle in self.stroke.loads.machine.breaks if self.start < angle < end]
+        return [angle for angle in self.stroke.loads.machine.breaks if self.start < angle < self._end]
 
     def run(self, exponent: float) -> Reals:
         """int F^p |n| dt and int |n| dt per revolution of the input [N^p rad, rad]; the rocker stands still."""
         cam = self.stroke.cam
         way = float(np.abs(cam.state(np.ones(1)).resting().gradient[0]))
         rate = abs(cam.center_distance / cam.roller_radius * way - cam.sense)
-        breaks = [angle - self.start for angle in self.stroke.loads.machine.breaks]
-        inside = [angle for angle in breaks if 0.0 < angle < self.width]
-        panels = Panels.over(self.width, inside)
+        panels = Panels.over(self.width, [angle - self.start for angle in self._joints])
         force = np.abs(self.force(self.start + panels.nodes))
         return rate * np.array([panels.integral(force**exponent), self.width])
 
@@ -356,17 +337,9 @@ class SwingRest:
         return cam.roller_radius * (1.0 - cam.sense * cam.roller_radius / cam.end_radius)
 
     @cached_property
-    def forces(self) -> tuple[float, float]:
-        """Maximum and minimum force on the arc [N]; what the file lets act may vary over the rest."""
-        wanted = [(self.force, True), (self.force, False)]
-        end = self.start + self.width
-        greatest, least = extremes_over(wanted, self.start, end, joints=self._joints, samples=128)
-        return greatest.value, least.value
-
-    @cached_property
     def pressed(self) -> dict[str, float]:
         """Maximum force, pressure and depth of the shear, and the minimum force: on an arc both go with the force."""
-        greatest, least = self.forces
+        greatest, least = self._extremes((self.force, True), (self.force, False))
         found = {"force": max(abs(greatest), abs(least)), "least_force": least}
         section, radius = self.stroke.loads.section, np.array([self.relative_radius])
         contact = contact_of(section, np.array([greatest]), radius)
@@ -428,7 +401,7 @@ class RollerLoad(BearingLoad):
     def borne(self) -> tuple[tuple[float, float], ...]:
         """Equivalent load [N] and turns a revolution of the input, by roller."""
         parts = [_run(stroke, self.exponent) for stroke in self.design.strokes]
-        for rest in self.design.pressing.rests:
+        for rest in self.design.rests:
             number = self.design.strokes.index(rest.stroke)
             parts[number] = parts[number] + rest.run(self.exponent)
         if self.design.spec.drive is not None:  # one roller on one cam
@@ -530,69 +503,6 @@ class StrokesInARow:
         return found
 
 
-class Pressing:
-    """Forces and pressures of rollers and cams; every result is computed when it is read."""
-
-    def __init__(self, loads: WideSwingLoads) -> None:
-        self.loads = loads
-
-    @cached_property
-    def of_strokes(self) -> list[dict[str, Extreme]]:
-        """What `SwingStroke.pressed` gives of each stroke; the machine is computed once a round for all of it."""
-        return StrokesInARow(self.loads).pressed()
-
-    @cached_property
-    def rests(self) -> tuple[SwingRest, ...]:
-        """The rests of a whole cycle, each on the cam of the stroke before it; those of no length left out."""
-        zones = zip(self.loads.strokes, self.loads.dwell_zones, strict=False)
-        return tuple(SwingRest(stroke, *zone) for stroke, zone in zones if zone[1] > LEAST)
-
-    def _all(self, name: str) -> list[float]:
-        """A value of every stroke and every rest."""
-        return [each.pressed[name].value for each in self.loads.strokes] + [each.pressed[name] for each in self.rests]
-
-    @cached_property
-    def force(self) -> float:
-        """Maximum force of the roller on any of the cams [N]; from geometry alone where nothing acts besides."""
-        if self.loads.own_forces:
-            return max(self._all("force"))
-        design = self.loads.design
-        in_rests = design.unloading.dwell_force([rest.stroke.cam for rest in self.rests]) if self.rests else 0.0
-        return max(design.contact_force, in_rests)
-
-    @cached_property
-    def least_force(self) -> float:
-        """Minimum force of the roller where it touches a cam [N]."""
-        return min(self._all("least_force"))
-
-    @cached_property
-    def exists(self) -> bool:
-        """Whether the roller has a width and bears on its cams wherever it touches them."""
-        if self.loads.section.roller is None or any(rest.relative_radius <= 0.0 for rest in self.rests):
-            return False
-        return not any(stroke.is_undercut for stroke in self.loads.strokes)
-
-    @cached_property
-    def pressure(self) -> float | None:
-        """Maximum pressure of roller and cam [N/mm^2]; None without a width, and where the cam is undercut."""
-        return max(self._all("pressure")) if self.exists else None
-
-    @property
-    def hardest_rest(self) -> SwingRest | None:
-        """The rest in which the pressure is largest; None where that is in a stroke."""
-        return next((rest for rest in self.rests if rest.pressed["pressure"] == self.pressure), None)
-
-    @cached_property
-    def shear_depth(self) -> float | None:
-        """Maximum depth of the maximum shear stress [mm]; with a drive, that where the pressure is greatest."""
-        if not self.exists:
-            return None
-        if self.loads.spec.drive is None:
-            return max(self._all("shear_depth"))
-        hardest = max(self.loads.strokes, key=lambda each: each.pressed["pressure"].value)
-        return hardest.shear_depth_at_greatest_pressure
-
-
 _RPM = 2.0 * math.pi / 60.0
 _CONTACT = (
     "contact_force_max",
@@ -657,10 +567,7 @@ class WideSwingLoads(LoadsDesign):
         """The working stroke, and what brings the rocker back where the whole revolution is known."""
         return tuple(SwingStroke(stroke, self) for stroke in strokes_of(self.design))
 
-    @property
-    def has_return_cam(self) -> bool:
-        """Whether a second cam turns the other way."""
-        return self.spec.cycle is not None and self.spec.layout != "twin-rocker"
+    has_return_cam: bool = placed("design.has_return_cam")
 
     @cached_property
     def own_links(self) -> tuple[str, ...]:
@@ -776,9 +683,54 @@ class WideSwingLoads(LoadsDesign):
         )
 
     @cached_property
-    def pressing(self) -> Pressing:
-        """How hard the rollers press."""
-        return Pressing(self)
+    def of_strokes(self) -> list[dict[str, Extreme]]:
+        """What `SwingStroke.pressed` gives of each stroke; the machine is computed once a round for all of it."""
+        return StrokesInARow(self).pressed()
+
+    @cached_property
+    def rests(self) -> tuple[SwingRest, ...]:
+        """The rests of a whole cycle, each on the cam of the stroke before it; those of no length left out."""
+        zones = zip(self.strokes, self.dwell_zones, strict=False)
+        return tuple(SwingRest(stroke, *zone) for stroke, zone in zones if zone[1] > LEAST)
+
+    def _pressed(self, name: str) -> list[float]:
+        """A value of every stroke and every rest."""
+        return [each.pressed[name].value for each in self.strokes] + [each.pressed[name] for each in self.rests]
+
+    @cached_property
+    def contact_force_max(self) -> float:
+        """Maximum force of the roller on any of the cams [N]; from geometry alone where nothing acts besides."""
+        if self.own_forces:
+            return max(self._pressed("force"))
+        in_rests = self.design.unloading.dwell_force([rest.stroke.cam for rest in self.rests]) if self.rests else 0.0
+        return max(self.design.contact_force, in_rests)
+
+    @cached_property
+    def least_contact_force(self) -> float:
+        """Minimum force of the roller where it touches a cam [N]."""
+        return min(self._pressed("least_force"))
+
+    @cached_property
+    def bears(self) -> bool:
+        """Whether the roller has a width and bears on its cams wherever it touches them."""
+        if self.section.roller is None or any(rest.relative_radius <= 0.0 for rest in self.rests):
+            return False
+        return not any(stroke.is_undercut for stroke in self.strokes)
+
+    @cached_property
+    def hertz_pressure_max(self) -> float | None:
+        """Maximum pressure of roller and cam [N/mm^2]; None without a width, and where the cam is undercut."""
+        return max(self._pressed("pressure")) if self.bears else None
+
+    @cached_property
+    def shear_depth(self) -> float | None:
+        """Maximum depth of the maximum shear stress [mm]; with a drive, that where the pressure is greatest."""
+        if not self.bears:
+            return None
+        if self.spec.drive is None:
+            return max(self._pressed("shear_depth"))
+        hardest = max(self.strokes, key=lambda each: each.pressed["pressure"].value)
+        return hardest.shear_depth_at_greatest_pressure
 
     @cached_property
     def rollers_found(self) -> RollerLoad | None:
@@ -794,9 +746,6 @@ class WideSwingLoads(LoadsDesign):
         """A mesh, or what the file calls as one: the bearings of the rollers."""
         return self.rollers_found if name == ROLLERS else super().mesh(name)
 
-    contact_force_max: float = placed("pressing.force")
-    least_contact_force: float = placed("pressing.least_force")
-
     @cached_property
     def lift_off_speed(self) -> float | None:
         """Speed at which the roller leaves a cam, by all that acts but friction [1/min]; None where nothing lifts it.
@@ -806,13 +755,10 @@ class WideSwingLoads(LoadsDesign):
         if not self.own_forces:
             return self.design.unloading.lift_off_speed
         least = [each.least_standing for each in self.strokes]
-        if min([*least, *(rest.least_standing for rest in self.pressing.rests)]) <= 0.0:
+        if min([*least, *(rest.least_standing for rest in self.rests)]) <= 0.0:
             return 0.0
         worst = max(each.most_unloading for each in self.strokes)
         return math.sqrt(1.0 / worst) / _RPM if worst > 0.0 else None
-
-    hertz_pressure_max: float | None = placed("pressing.pressure")
-    shear_depth: float | None = placed("pressing.shear_depth")
 
     @property
     def roller_speed_max(self) -> float:
@@ -840,21 +786,34 @@ class WideSwingLoads(LoadsDesign):
         no_shaft = self.spec.drive is not None and name.startswith("cam_torque")
         return None if no_shaft or (name.endswith(".travel") and not self.whole) else super().raw(name)
 
-    def candidates(self, check: str, /) -> Iterable[Remedy]:
-        """Of a slider whose arm stands ill that comes first."""
-        return (*candidates_of_loads(self, check), *super().candidates(check))
+    @property
+    def changes_apart(self) -> bool:
+        """Whether device and roller change sides at different places."""
+        return any(check.status == "fail" for check in self.design.check("side-change"))
+
+    def candidates(self, check: str, /) -> Iterator[Remedy]:
+        """Directions that are clear; of a slider whose arm stands ill what lets the device hold the roller all the way,
+        alone and with more reserve."""
+        if check == "body-clearance":
+            yield from _clear_directions(self)
+        section, reserve = self.spec.slider, self.design.unloading.size.reserve
+        if check == "contact-loss" and section is not None and self.changes_apart:
+            for changes in side_changes(section):
+                yield changes
+                yield from ((*changes, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.25, 1.0))
+        yield from super().candidates(check)
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles of a table's rows [rad] and its first columns; k over the stroke where the file has no cycle."""
         if self.whole:
             return super().rows(samples)
-        k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
+        k = range_rows(0.0, 1.0, samples or _STEPS)
         phi = k * self.cam.cycle_angle
         return phi, {"k": (k, "1"), "input_angle": (np.degrees(phi), "deg")}
 
     def table_contact_stroke(self, samples: int | None = None) -> Table:
         """Force, pressure and speeds of the roller over each stroke; empty where it touches nothing."""
-        k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
+        k = range_rows(0.0, 1.0, samples or _STEPS)
         columns: dict[str, tuple[Any, str]] = {"k": (k, "1")}
         for stroke in self.strokes:
             later = "" if stroke.name == "main" else "return_"
@@ -887,15 +846,14 @@ class WideSwingLoads(LoadsDesign):
         if found is None:
             yield pressed_where_undercut("the roller presses where its cam", allowed)
             return
-        rest = self.pressing.hardest_rest
-        at = "" if rest is None else f"the {rest.words}"
+        at = next((f"the {rest.words}" for rest in self.rests if rest.pressed["pressure"] == found), "")
         yield pressure_check("contact pressure of the roller", found, allowed, at)
 
     def check_contact_loss(self) -> Iterator[Check]:
         """GL608: the device holds the roller on its cam up to the lift-off speed, and against all that acts besides."""
         speed, limit = self.spec.speed, self.lift_off_speed
         slider, fix = self.spec.slider, "increase unloader.reserve"
-        if slider is not None and changes_apart(self):
+        if slider is not None and self.changes_apart:
             fix = side_words(slider)
         status: Status
         if limit is not None:
@@ -908,7 +866,11 @@ class WideSwingLoads(LoadsDesign):
         what, overlap = "minimum contact force of the roller", "missing contact force: the roller leaves its cam"
         yield codes.CONTACT_LOSS.check(status, what, least, 0.0, "N", overlap=overlap, fix=fix)
 
-    check_resonance, check_body_clearance = resonance_of_loads, bodies.placed_clearance
+    def check_resonance(self) -> Iterator[Check]:
+        """GL611, of a whole revolution."""
+        return resonance(self) if self.whole else iter(())
+
+    check_body_clearance = bodies.placed_clearance
 
 
 def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:

@@ -106,7 +106,6 @@ class _WithCams:
     def __init__(self, design: WideSwingDesign, whole: bool) -> None:
         self.design, self.spec, self.whole = design, design.spec, whole
         self.strokes = strokes_of(design)
-        self.has_return_cam = self.spec.cycle is not None and self.spec.layout != "twin-rocker"
         self.side = -1.0 if self.spec.layout != "twin-rocker" else 1.0
         """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
         if self.spec.drive is not None:
@@ -134,7 +133,7 @@ class _WithCams:
         links["rocker"] = Link(pivot, turn, self._rollers)
         connections.append(Pin("D", FRAME, "rocker", pivot.value))
         shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
-        if self.has_return_cam:
+        if self.design.has_return_cam:
             shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
         travel = {}
         if self.spec.slider is not None:
@@ -187,7 +186,7 @@ class _WithCams:
             section = self.spec.loads
             given = None if section is None else section.drive_direction
             return with_drive(phi, axis, self.design.motion.drive, math.radians(_or(given, DRIVE_DIRECTION)))
-        strokes = self.strokes[: 1 + self.has_return_cam]
+        strokes = self.strokes[: 1 + self.design.has_return_cam]
         links, connections = with_shafts(phi, self.side, strokes, order)
         if len(strokes) > 1:
             connections.append(self._train(axis))

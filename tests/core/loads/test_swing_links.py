@@ -19,7 +19,6 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from gearlink.core.base.errors import GearlinkError
-from gearlink.core.machines.wide_swing import loads as swing_load_checks
 from gearlink.core.machines.wide_swing import remedies as swing_remedies
 
 DEGREE = 90
@@ -323,7 +322,7 @@ def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> Non
     (loss,) = [f for f in apart.check("contact-loss") if f.value == apart.least_contact_force]
     assert (loss.code, loss.status) == ("GL608", "fail")
     assert "missing contact force: the roller leaves its cam" in loss.message
-    ways = list(swing_load_checks.candidates_of_loads(apart, "contact-loss"))
+    ways = list(apart.candidates("contact-loss"))
     arm, reserve, mass = ("slider.middle_angle", 73.18), apart.spec.unloader.reserve, apart.spec.slider.mass
     assert ways[:3] == [
         (arm,),
@@ -331,7 +330,7 @@ def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> Non
         (arm, ("unloader.reserve", pytest.approx(reserve + 1.0, rel=1e-12))),
     ]
     assert ways[3] == (arm, ("slider.mass", pytest.approx(0.5 * mass, rel=1e-12)))
-    assert list(swing_load_checks.candidates_of_loads(apart, "resonance")) == []
+    assert list(apart.candidates("side-change")) == []
 
 
 @pytest.mark.slow

@@ -157,6 +157,6 @@ def test_the_rollers_bear_a_torque_that_jumps_within_a_stroke() -> None:
         turned = np.abs(stroke.bearing_speed(k)) * stroke.width / made.speed * (last - first) / 40_000
         borne += float(np.sum(np.abs(stroke.force(k)) ** exponent * turned))
         way += float(np.sum(turned))
-    rest = next(each for each in made.pressing.rests if each.stroke is stroke).run(exponent)
+    rest = next(each for each in made.rests if each.stroke is stroke).run(exponent)
     equivalent = ((borne + rest[0]) / (way + rest[1])) ** (1.0 / exponent)
     assert made.rollers_found.borne[0][0] == pytest.approx(equivalent, rel=2e-6)
