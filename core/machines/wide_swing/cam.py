@@ -16,7 +16,7 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -24,47 +24,16 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.machines.wide_swing.law import MiddleView
+from gearlink.core.machines.wide_swing.law import ElasticLaw, MiddleView
+from gearlink.core.machines.wide_swing.slider import AimedLaw
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over, maximum_over
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.numerics.roots_sweep import root_between
 from gearlink.core.numerics.together import kept_last
 
-
-class StrokeLaw(Protocol):
-    """What a cam needs of the rocker's law of motion; `ElasticLaw` and `AimedLaw` have it.
-
-    Fields
-        place : float - k*, fraction of the stroke at which the roller passes the line of centres
-        offset : float [rad] - rocker angle from mid-swing there
-        symmetric : bool - whether both ways from k* are mirror images, with k* = 1/2
-        velocity_peak, acceleration, middle_jerk : float - b, c and dc/dk at k*
-    """
-
-    @property
-    def swing(self) -> float: ...
-    @property
-    def place(self) -> float: ...
-    @property
-    def offset(self) -> float: ...
-    @property
-    def symmetric(self) -> bool: ...
-    @property
-    def velocity_peak(self) -> float: ...
-    @property
-    def acceleration(self) -> float: ...
-    @property
-    def middle_jerk(self) -> float: ...
-    def middle_view(self, k: Reals) -> MiddleView: ...
-
-    # by an angle that rises with k and is 0 at k*; `turns` at the start and the end of the stroke
-    @property
-    def turns(self) -> tuple[float, float]: ...
-    def view_at(self, turn: Reals) -> MiddleView: ...
-    def share_from_middle(self, turn: Reals) -> Reals: ...
-    def turn_near(self, share: float) -> float: ...
-    def turn_at(self, share: float) -> float: ...
+StrokeLaw: TypeAlias = ElasticLaw | AimedLaw
+"""A law of motion of the rocker, as its cam sees it: from the place where the roller passes the line of centres."""
 
 
 def roller_arm(ratio: float, versed: Any, sine: Any) -> Any:

@@ -223,7 +223,7 @@ class ClosedCam:
 
     def _contour(self, sector: int, state: CurveState, t: Reals, pitch: Points) -> Points:
         cam = self.cam
-        size = cam.roller_radius + (self._room(t) if sector == 2 else 0.0)
+        size = cam.roller_radius + (self.clearance * self._share(t) if sector == 2 else 0.0)
         found = pitch + cam.sense * size * state.normal
         if sector:
             return np.asarray(found)
@@ -231,9 +231,6 @@ class ClosedCam:
         inside = (state.k > start) & (state.k < end)
         found[inside] = cam.slot_bottom((state.k[inside] - start) / (end - start))
         return np.asarray(found)
-
-    def _room(self, t: Reals) -> Reals:
-        return self.clearance * self._share(t)
 
     def _share(self, t: Reals) -> Reals:
         """Share of the clearance over the free sector: none at its ends, all after a tenth of it, without a corner."""

@@ -44,7 +44,7 @@ from gearlink.core.machines.wide_swing.slider import AimedLaw, fastest_place
 from gearlink.core.machines.wide_swing.strokes import AnyCam
 from gearlink.core.machines.wide_swing.torques import FlankImpact, Unloading, flank_impact
 from gearlink.core.numerics.arrays import range_rows
-from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, minimum_over, share_of
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, share_of
 from gearlink.core.numerics.motion_extremes import extremes
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 from gearlink.core.parts.cams.checks import HUB, against_curvature, over_axis_check
@@ -52,6 +52,7 @@ from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CAM_UNDERCUT, PRES
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, gear_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
+from gearlink.core.studies.clearance import beside_turning_pin
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.spec import SecondShaft, SwingCam, WideSwingSpec
@@ -155,15 +156,10 @@ class ParallelShafts:
     @property
     def _roller_gap(self) -> float:
         """Minimum clearance between a roller, over its swing, and the circle of the other cam [mm]."""
-        half, found = 0.5 * self.design.motion.swing, []
+        swing, found = self.design.motion.swing, []
         for number, cam in enumerate(self.cams):
-            arm = cmath.rect(cam.rocker_radius, (0.0, self.roller_arm_angle)[number])
-            other = self.shafts[1 - number]
-
-            def room(phi: Reals, arm: complex = arm, other: complex = other) -> Reals:
-                return np.asarray(np.abs(arm * np.exp(1j * phi) - other))
-
-            nearest = minimum_over(room, -half, half, samples=128).value
+            arm = cmath.rect(cam.rocker_radius, (0.0, self.roller_arm_angle)[number] - 0.5 * swing)
+            nearest = beside_turning_pin(self.shafts[1 - number], arm, swing).distance
             found.append(nearest - self._outer[1 - number] - cam.roller_radius)
         return min(found)
 
@@ -215,9 +211,8 @@ def cam_clearance(design: WideSwingDesign) -> Iterator[Check]:
     gap = min(shafts.cam_shaft_gap, shafts.plane_gap) if same else shafts.cam_shaft_gap
     what = "cams, rollers and shafts in one plane" if same else "each cam and the shaft of the other"
     fix = "set cam.planes to separate" if same else "set cam.second.direction farther from 0"
-    yield codes.CAM_CLEARANCE.check(
-        "fail" if gap < limit else "pass", f"clearance between {what}", gap, limit, "mm", fix=fix if gap < limit else ""
-    )
+    status: Status = "fail" if gap < limit else "pass"
+    yield codes.CAM_CLEARANCE.check(status, f"clearance between {what}", gap, limit, "mm", fix=fix)
 
 
 _ROUNDING = 1e-9
@@ -268,11 +263,6 @@ def _more_force(design: WideSwingDesign) -> str:
 
 
 # Cams
-
-
-def _judged(design: WideSwingDesign) -> list[tuple[str, AnyCam]]:
-    """The cams with a profile."""
-    return [(words, cam) for words, cam in design.cams.items() if cam is not design.cam or design.has_profile]
 
 
 def _pressure_remedy(design: WideSwingDesign) -> str:
@@ -389,10 +379,7 @@ LAW = {
     "spring_rate": "unloading.spring_rate",
 }
 TORQUE = {"power_peak": "motion.law.power_peak", "drive_torque_peak": "unloading.drive_torque_peak"}
-SHAFT = {
-    "dynamic_coefficient": "unloading.dynamic_coefficient",
-    "drive_balancing_ratio": "unloading.drive_balancing_ratio",
-}
+SHAFT = {name: f"unloading.{name}" for name in ("dynamic_coefficient", "drive_balancing_ratio")}
 SLIDER = {
     "slider_stroke": "motion.slider.stroke",
     "reference_inertia": "motion.reference_inertia",
@@ -429,22 +416,14 @@ PROFILE = {
     "contact_force": "contact_force",
     "dwell_force": "dwell_force",
 }
-IMPACT = {
-    "impact_speed": "impact.speed",
-    "impact_place": "impact.place",
-    "impact_energy": "impact.energy",
-    "impact_force": "impact.force",
-}
+_OF_IMPACT = ("impact_speed", "impact_place", "impact_energy", "impact_force")
+IMPACT = {name: name.replace("_", ".") for name in _OF_IMPACT}
 GAIN = {"end_position_gain": "end_position_gain"}
 SHAFTS = {name: f"shafts.{name}" for name in ("shaft_distance", "roller_arm_angle", "cam_gap", "cam_shaft_gap")}
 OF_BOTH = ("rocker_radius", "max_radius", "min_radius")
 PHASES = ("working_angle", "far_dwell_angle", "return_angle", "near_dwell_angle")
-CYCLE = {
-    "sectors_external": "cycle.sectors_external",
-    "sectors_internal": "cycle.sectors_internal",
-    "sectors_return": "cycle.sectors_return",
-    "longer_stroke_reserve": "cycle.longer_stroke_reserve",
-}
+_OF_CYCLE = ("sectors_external", "sectors_internal", "sectors_return", "longer_stroke_reserve")
+CYCLE = {name: f"cycle.{name}" for name in _OF_CYCLE}
 ITERATION = {
     "iteration_energy_parameter": "unloading.iteration.energy_parameter",
     "iteration_passes": "unloading.iteration.passes",
@@ -648,10 +627,10 @@ class WideSwingDesign(Design):
         alike = self.spec.layout != "twin-rocker" and self.motion.return_angle == self.motion.cycle_angle
         if second is None and alike:
             return None
-        if second is not None and second.center_distance is not None:
-            other = self._even("twin-cam", self.motion.return_angle, None, "return")
-            return replace(other, center_distance=second.center_distance)
-        return self._even("twin-cam", self.motion.return_angle, None, "return")
+        other = self._even("twin-cam", self.motion.return_angle, None, "return")
+        if second is None or second.center_distance is None:
+            return other
+        return replace(other, center_distance=second.center_distance)
 
     def _even(self, layout: Layout, angle: float, rocker_radius: float | None, phase: str) -> WideSwingCam:
         section, law = self.section, self.motion.plain_law
@@ -710,7 +689,7 @@ class WideSwingDesign(Design):
     def aimed_cam(self) -> AnyCam:
         """The cam of a rocker with a slider, whose roller passes the line of centres beside mid-swing."""
         _ = self.section, self.motion.slider  # refused without one
-        return self.slider_cam if self.spec.drive is None else self.oscillating_cam
+        return self.cam
 
     @property
     def cams(self) -> dict[str, AnyCam]:
@@ -720,6 +699,11 @@ class WideSwingDesign(Design):
         if self.spec.layout != "twin-rocker":
             return {"cam": self.cam, "return cam": self.return_cam}
         return {"internal profile": self.cam, "external profile": self.return_cam}
+
+    @property
+    def profiles(self) -> dict[str, AnyCam]:
+        """Those among them that have a profile."""
+        return {words: cam for words, cam in self.cams.items() if cam is not self.cam or self.has_profile}
 
     @cached_property
     def refusal(self) -> NoSolution | None:
@@ -1030,17 +1014,14 @@ class WideSwingDesign(Design):
             return
         rise = self.unloading.size.force_variation
         litres = unloader.reservoir
-        fix = ""
-        if rise > MOST_RISE:
-            swept, most = (1.0 - (1.0 + each) ** (-1.0 / ISENTROPIC) for each in (rise, MOST_RISE))
-            fix = f"set unloader.reservoir to at least {safely_above(litres * swept / most)}"
+        swept, most = (1.0 - (1.0 + each) ** (-1.0 / ISENTROPIC) for each in (rise, MOST_RISE))
         yield DEVICE_PRESSURE.check(
             "warn" if rise > MOST_RISE else "pass",
             "rise of the cylinder's force over its stroke",
             rise,
             MOST_RISE,
             aside=f"{litres:g} l of air; the law assumes a constant force",
-            fix=fix,
+            fix=f"set unloader.reservoir to at least {safely_above(litres * swept / most)}",
         )
 
     def check_unloader_turnability(self) -> Iterator[Check]:
@@ -1069,12 +1050,10 @@ class WideSwingDesign(Design):
             return
         stretch = self.motion.stretch_ratio
         status: Status = "warn" if stretch == 0.0 else "pass"
-        what, aside, fix = "mounting stretch of the spring over its stroke", "", ""
-        if status == "warn":
-            aside = "the spring is slack at mid-swing"
-            given = unloader.free_length is not None
-            fix = "use a shorter spring" if given else "set unloader.stretch_ratio above 0, such as 0.1"
-        yield FORCE_CLOSURE.check(status, what, stretch, 0.0, aside=aside, fix=fix)
+        what, aside = "mounting stretch of the spring over its stroke", "the spring is slack at mid-swing"
+        given = unloader.free_length is not None
+        fix = "use a shorter spring" if given else "set unloader.stretch_ratio above 0, such as 0.1"
+        yield FORCE_CLOSURE.check(status, what, stretch, 0.0, aside="" if stretch else aside, fix=fix)
 
     def check_cycle_angles(self) -> Iterator[Check]:
         """GL510: both strokes find room in one revolution of the cam."""
@@ -1127,7 +1106,7 @@ class WideSwingDesign(Design):
     def check_pressure_angle(self) -> Iterator[Check]:
         """GL401 where the roller touches the profile."""
         limit = self.spec.limits.pressure_angle
-        for words, cam in _judged(self):
+        for words, cam in self.profiles.items():
             if not self.has_zone(cam):
                 continue
             value = math.degrees(cam.max_pressure_angle)
@@ -1141,7 +1120,7 @@ class WideSwingDesign(Design):
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402: roller against the curvature where it touches the profile, and against the source's (27)."""
         roller = self.section.roller_radius
-        for words, cam in _judged(self):
+        for words, cam in self.profiles.items():
             if not self.has_zone(cam):
                 yield _covered(cam, words)
                 continue
@@ -1161,7 +1140,7 @@ class WideSwingDesign(Design):
     def check_transition_zone(self) -> Iterator[Check]:
         """GL507: the contact changes sides within a small part of the stroke."""
         limit = self.spec.limits.transition_zone
-        for words, cam in _judged(self):
+        for words, cam in self.profiles.items():
             zone = cam.transition_zone
             fix = note = ""
             if zone > limit:

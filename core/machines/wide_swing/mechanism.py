@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.strokes import Stroke, strokes_of
+from gearlink.core.machines.wide_swing.strokes import strokes_of
 from gearlink.core.mechanism.closures import dyad, slider
 from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.dual import Shift, longer
@@ -32,7 +31,6 @@ from gearlink.core.studies.tolerance.sources import CAM_PROFILE, RETURN_ARM, ROL
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
-    from gearlink.core.machines.wide_swing.slider import SliderDrive
     from gearlink.core.numerics.arrays import Points, Reals
 
 
@@ -80,9 +78,13 @@ def _outputs(design: WideSwingDesign) -> tuple[Output, ...]:
 
 def slider_way(design: WideSwingDesign) -> complex:
     """The direction from D in which the slider is farthest."""
-    section = design.spec.loads
-    given = None if section is None else section.slider_direction
-    return cmath.rect(1.0, math.radians(_or(given, SLIDER_DIRECTION)))
+    return cmath.rect(1.0, _direction(design, "slider_direction", SLIDER_DIRECTION))
+
+
+def _direction(design: WideSwingDesign, name: str, usual: float) -> float:
+    """A direction that the section `loads` gives, or the usual one [rad]."""
+    given = getattr(design.spec.loads, name, None)
+    return math.radians(usual if given is None else given)
 
 
 def _alone(design: WideSwingDesign, phi: Reals, order: int) -> Mechanism:
@@ -92,12 +94,7 @@ def _alone(design: WideSwingDesign, phi: Reals, order: int) -> Mechanism:
     turn = Turn((a - 0.5) * swing, *(swing / angle**n * rate for n, rate in enumerate(rates, 1)))
     links = {"rocker": Link(fixed(0j, phi, order=order), turn)}
     joints: list[Connection] = [Pin("D", FRAME, "rocker", links["rocker"].origin.value)]
-    travel = {}
-    if design.spec.slider is not None:
-        travel["slider"] = slider_way(design)
-        hung, more = with_slider(links["rocker"], design.motion.slider.drive, travel["slider"])
-        links, joints = links | hung, joints + more
-    return Mechanism(links, joints, "rocker", travel=travel)
+    return Mechanism(links, joints, "rocker", travel=_hang_slider(design, links, joints))
 
 
 class _WithCams:
@@ -135,12 +132,7 @@ class _WithCams:
         shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
         if self.design.has_return_cam:
             shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
-        travel = {}
-        if self.spec.slider is not None:
-            travel["slider"] = slider_way(self.design)
-            hung, joints = with_slider(links["rocker"], self.design.motion.slider.drive, travel["slider"])
-            links |= hung
-            connections += joints
+        travel = _hang_slider(self.design, links, connections)
         connections.append(SharedContact("roller", "rocker", place, normal, shares))
         drive = "crank" if self.spec.drive is not None else "cam"
         return Mechanism(links, connections, drive, sense, crank, travel)
@@ -183,13 +175,18 @@ class _WithCams:
         """The cams with what drives them, their pins, the sense of the driven link and its pivot [mm]."""
         axis = fixed(0j, phi, order=order)
         if self.spec.drive is not None:
-            section = self.spec.loads
-            given = None if section is None else section.drive_direction
-            return with_drive(phi, axis, self.design.motion.drive, math.radians(_or(given, DRIVE_DIRECTION)))
-        strokes = self.strokes[: 1 + self.design.has_return_cam]
-        links, connections = with_shafts(phi, self.side, strokes, order)
-        if len(strokes) > 1:
-            connections.append(self._train(axis))
+            direction = _direction(self.design, "drive_direction", DRIVE_DIRECTION)
+            return with_drive(phi, axis, self.design.motion.drive, direction)
+        links: dict[str, Link] = {}
+        connections: list[Connection] = []
+        shafts = (("cam", "O", self.side), ("return_cam", "O_return", -self.side))[: 1 + self.design.has_return_cam]
+        for (name, pin, way), stroke in zip(shafts, self.strokes, strict=False):
+            # its roller stands on the line of centres at the middle of its stroke
+            axis, middle = fixed(stroke.shaft, phi, order=order), stroke.start + stroke.cam.middle * stroke.width
+            links[name] = Link(axis, steady(phi, way, cmath.phase(stroke.toward) - way * middle, order=order))
+            connections.append(Pin(pin, FRAME, name, axis.value))
+        if len(shafts) > 1:
+            connections.append(self._train(fixed(0j, phi, order=order)))
         return links, connections, self.side, 0j
 
     def _train(self, axis: Point) -> Connection:
@@ -202,47 +199,26 @@ class _WithCams:
         return Mesh(GEARS, "cam", "return_cam", axis.value, toward, radius, radius, tangent)
 
 
-def _or(given: float | None, default: float) -> float:
-    return default if given is None else given
+def _hang_slider(design: WideSwingDesign, links: dict[str, Link], joints: list[Connection]) -> dict[str, complex]:
+    """Put rod and slider to the rocker, where the file has them, their pins E and F, and the guide.
 
-
-def with_slider(rocker: Link, drive: SliderDrive, away: complex) -> tuple[dict[str, Link], list[Connection]]:
-    """Rod and slider, their pins E and F, and the guide.
-
-    Parameters
-        rocker : Link - its angle counted from mid-swing
-        drive : SliderDrive [mm]
-        away : complex - direction from D in which the slider is farthest
+    Returns
+        travel : direction in which the slider is farthest from D, by its link
     """
+    if design.spec.slider is None:
+        return {}
+    rocker, drive, away = links["rocker"], design.motion.slider.drive, slider_way(design)
     pin = rocker.at(drive.crank * cmath.rect(1.0, drive.middle_angle) * away)
     line = complex(rocker.origin.value[0]) - 1j * away * drive.offset
     turn, block = slider(pin, drive.rod, line, away)
-    links = {"rod": Link(pin, turn), "slider": Link(block, standing(cmath.phase(away), turn.value, order=turn.order))}
-    joints: list[Connection] = [
+    links["rod"] = Link(pin, turn)
+    links["slider"] = Link(block, standing(cmath.phase(away), turn.value, order=turn.order))
+    joints += [
         Pin("E", "rocker", "rod", pin.value),
         Pin("F", "rod", "slider", block.value),
         Guide("guide", FRAME, "slider", block.value, away),
     ]
-    return links, joints
-
-
-def with_shafts(
-    phi: Reals, sense: float, strokes: Sequence[Stroke], order: int
-) -> tuple[dict[str, Link], list[Connection]]:
-    """The cam that turns evenly, and a second one that turns the other way, each in the frame of its table.
-
-    Parameters
-        phi : (N,) array [rad] - input angle
-        sense : float - in which the first one turns
-        strokes : by cam - whose roller stands on the line of centres at its middle
-    """
-    links: dict[str, Link] = {}
-    joints: list[Connection] = []
-    for name, pin, way, stroke in zip(("cam", "return_cam"), ("O", "O_return"), (sense, -sense), strokes, strict=False):
-        axis, middle = fixed(stroke.shaft, phi, order=order), stroke.start + stroke.cam.middle * stroke.width
-        links[name] = Link(axis, steady(phi, way, cmath.phase(stroke.toward) - way * middle, order=order))
-        joints.append(Pin(pin, FRAME, name, axis.value))
-    return links, joints
+    return {"slider": away}
 
 
 def with_drive(

@@ -88,8 +88,7 @@ def center_distance(design: WideSwingDesign, cam: AnyCam) -> tuple[str, float]:
 def roller_for_zone(design: WideSwingDesign) -> float:
     """Roller radius that brings every cam's transition zone within the limit [mm]."""
     limit = design.spec.limits.transition_zone
-    cams = [cam for cam in design.cams.values() if cam is not design.cam or design.has_profile]
-    return min(cam.largest_roller(limit) for cam in cams) / _STRICTLY
+    return min(cam.largest_roller(limit) for cam in design.profiles.values()) / _STRICTLY
 
 
 def roller_for_curvature(design: WideSwingDesign) -> float:
@@ -113,8 +112,7 @@ def _curvature_holds(trial: WideSwingDesign) -> bool:
 
 def roller_of_profile(design: WideSwingDesign) -> float | None:
     """Roller radius that the profiles can bear [mm], where they cannot bear the one given; None where they can."""
-    judged = [cam for cam in design.cams.values() if cam is not design.cam or design.has_profile]
-    if all(cam.transition_zone <= design.spec.limits.transition_zone for cam in judged):
+    if all(cam.transition_zone <= design.spec.limits.transition_zone for cam in design.profiles.values()):
         return None
     most = min(roller_for_zone(design), roller_for_curvature(design))
     return most if most < design.section.roller_radius else None

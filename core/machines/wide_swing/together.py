@@ -69,7 +69,7 @@ def find_together(designs: Sequence[WideSwingDesign], asked: frozenset[str]) -> 
     for group in in_groups(cams, lambda cam: (cam.layout, type(cam.law))):
         sought(lambda some: _find_cams(some, asked), group)
     driven = [design for design in designs if _is_driven(design)]
-    for alike in in_groups(driven, lambda design: type(design.oscillating_cam.law)):
+    for alike in in_groups(driven, lambda design: isinstance(design.oscillating_cam.law, AimedLaw)):
         sought(_find_driven, alike)
     if "contact_force" in asked:
         moving = [design for design in designs if _is_pressed(design)]

@@ -597,5 +597,5 @@ def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
         limit,
         "mm/s",
         at=f"k = {short(place)}",
-        fix="reduce cam.roller_clearance" if speed > limit else "",
+        fix="reduce cam.roller_clearance",
     )
