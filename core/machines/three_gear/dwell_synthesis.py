@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.base.design import Found, Outline
-from gearlink.core.base.errors import MissingSection, NoSolution, anew, at_key, section_of
+from gearlink.core.base.errors import MissingSection, NoSolution, anew, at_key
 from gearlink.core.base.report import Check, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
@@ -35,7 +35,7 @@ _DWELL = ("dwell_tolerance", "window_limit", "frame_ratio_interval", "frame_leng
 class DwellTask(FamilyTask):
     """A dwell of three gears: phi13, a window, a tolerance, or both of these."""
 
-    section = "dwell"
+    section, keys = "dwell", "angle, or window and tolerance (deg)"
 
     no_idler: NoSolution | None = None
     """Why no idler was found: another check of the same design does not try some hundred of them again."""
@@ -43,11 +43,6 @@ class DwellTask(FamilyTask):
     """Whether the whole range of frames was looked at."""
 
     # The request
-
-    @property
-    def request(self) -> Any:
-        """The section."""
-        return section_of(self.spec, "dwell", "angle, or window and tolerance (deg)")
 
     @cached_property
     def window(self) -> float | None:

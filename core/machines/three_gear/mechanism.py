@@ -36,7 +36,6 @@ def motion(design: ThreeGearFourBar) -> Motion:
     """
     linkage, train, radii = design.linkage, design.train, design.rolling
     at_start = solve(linkage, 0.0)
-    i2, i3 = -train.crank / train.idler, -train.idler / train.output
     section = design.spec.loads
     holds_idler = "coupler" if section is None else section.idler_pin
 
@@ -44,10 +43,10 @@ def motion(design: ThreeGearFourBar) -> Motion:
         links = four_bar(linkage, phi, order)
         b, d = links["coupler"], links["rocker"]
         coupler, rocker = from_start(b.turn, at_start.coupler_angle), from_start(d.turn, at_start.rocker_angle)
-        idler = mixed((i2, links["crank"].turn), (1.0 - i2, coupler))
+        idler = mixed((train.i2, links["crank"].turn), (1.0 - train.i2, coupler))
         pins = four_bar_pins(links)
         links["idler"] = Link(d.at("C"), idler)
-        links["output"] = Link(d.origin, mixed((i3, idler), (1.0 - i3, rocker)))
+        links["output"] = Link(d.origin, mixed((train.i3, idler), (1.0 - train.i3, rocker)))
         (r1, r3, flank), (r3_out, r5, flank_out) = radii
         return Mechanism(
             links,

@@ -10,13 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.dwell import standing
 from gearlink.core.machines.three_gear.momentary import angle_of_poles, pole_lengths, touching
 from gearlink.core.numerics.arrays import Mask, Reals
@@ -37,7 +35,6 @@ from gearlink.core.parts.linkages.geared_output import blend
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40  # of a search for an extreme [rad]
 _NEAR, _SLOW = 1e-9, 1e-5
-_BLOCK = 8192
 
 
 class Drives(NamedTuple):
@@ -175,8 +172,7 @@ def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals
     """
     r1, r3, r5 = radii
     a, d = links.a, links.d
-    total, poles = r1 + 2.0 * r3 + r5, sum(pole_lengths(*radii, ARRAYS))
-    e_lo = r1 * r1 * total / poles**2
+    _, e_lo = _least_cranks(radii)
     e_hi = r1 * (r1 / e_lo)
     frame = touching(r1, r3, r5, a, np.where(a < r1, e_lo, e_hi), ARRAYS).frame
     reached = (e_lo < a) & (a < e_hi)
@@ -186,6 +182,13 @@ def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals
     places = [wrapped(links.s * angle_of_poles(r1, r5, *each, ARRAYS)) for each in found]
     exists = reached & (d > frame)
     return np.where(exists, np.minimum(*places), np.nan), np.where(exists, np.maximum(*places), np.nan), near
+
+
+def _least_cranks(radii: tuple[Any, Any, Any]) -> tuple[Any, Any]:
+    """S, and e_lo of `momentary.least_eccentricity` [mm]."""
+    r1, r3, r5 = radii
+    total = r1 + 2.0 * r3 + r5
+    return total, r1 * r1 * total / sum(pole_lengths(*radii, ARRAYS)) ** 2
 
 
 def around(least: Reals, greatest: Reals, links: Drives) -> tuple[Reals, Reals]:
@@ -318,8 +321,7 @@ def longest_in_band(valleys: Valleys, tolerance: Reals) -> Dwells:
     return Dwells(wrapped(left), right - left, unsure & wide, doubtful | ~(slowest > _SLOW))
 
 
-@dataclass(frozen=True, slots=True)
-class MomentaryDwells:
+class MomentaryDwells(NamedTuple):
     """Momentary-dwell designs: frame length [mm], crank angle of the standstill [rad], both NaN where not `exists`."""
 
     frame: Reals
@@ -327,7 +329,7 @@ class MomentaryDwells:
     exists: Mask
 
 
-def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: ArrayLike) -> MomentaryDwells:
+def momentary_dwells(r1: Any, r3: Any, r5: Any, eccentricity: Any) -> MomentaryDwells:
     """Frame length and crank angle of the momentary dwell for many gears and cranks.
 
     d*^2 = (S - e_lo)^2 cos^2(beta) + r5^2 sin^2(beta),   cos^2(beta) = (r1^2 - e^2)/(r1^2 - e_lo^2)
@@ -337,42 +339,19 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
     Returns
         dwells : MomentaryDwells - `exists` where a crank-rocker has one: e_lo < e < e_up as in
             `momentary.eccentricity_range`; assembly +1
-    Raises
-        NoSolution - for a length that is not positive and finite
     Example
-        >>> found = momentary_dwells(25.0, 25.0, 75.0, [5.0, 16.0, 18.0, 26.0])
+        >>> found = momentary_dwells(25.0, 25.0, 75.0, np.array([5.0, 16.0, 18.0, 26.0]))
         >>> found.exists.tolist(), np.round(found.frame[1:3], 9).tolist()
         ([False, True, True, False], [122.839414792, 115.522215625])
 
     Source
         own derivation; scalar form in `gearlink.core.machines.three_gear.momentary`
     """
-    arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)))
-    if not all(x.size == 0 or (x.min() > 0.0 and x.max() < np.inf) for x in arrays):
-        raise NoSolution("radii and eccentricities must all be positive and finite")
-    shape = arrays[0].shape
-    flat = [x.reshape(-1) for x in arrays]
-    frame, angle, exists = np.empty(flat[0].size), np.empty(flat[0].size), np.empty(flat[0].size, dtype=bool)
+    total, e_lo = _least_cranks((r1, r3, r5))
+    exists = (e_lo < eccentricity) & (eccentricity < r1 - 2.0 * np.maximum(0.0, r1 - r5) * e_lo / total)
     with np.errstate(invalid="ignore"):
-        for start in range(0, frame.size, _BLOCK):
-            block = slice(start, start + _BLOCK)
-            exists[block] = _momentary_block([x[block] for x in flat], frame[block], angle[block])
-    return MomentaryDwells(frame.reshape(shape), angle.reshape(shape), exists.reshape(shape))
-
-
-def _momentary_block(given: list[Reals], frame: Reals, angle: Reals) -> Mask:
-    """Frame lengths and crank angles of one block; NaN where there is no momentary dwell."""
-    r1, r3, r5, e = given
-    u, v = pole_lengths(r1, r3, r5, ARRAYS)
-    share = (r1 / (u + v)) ** 2
-    s = r1 + 2.0 * r3 + r5
-    e_lo = share * s
-    exists: Mask = (e_lo < e) & (e < r1 - 2.0 * np.maximum(0.0, r1 - r5) * share)
-    found = touching(r1, r3, r5, e, e_lo, ARRAYS)
-    x = found.cos_beta
-    turned = angle_of_poles(r1, r5, s * x, e_lo * x, found.sin_beta, ARRAYS)
-    np.add(turned, 2.0 * math.pi, out=turned, where=turned < 0.0)
-    frame[:], angle[:] = found.frame, turned
-    if not exists.all():
-        frame[~exists] = angle[~exists] = math.nan
-    return exists
+        found = touching(r1, r3, r5, eccentricity, e_lo, ARRAYS)
+        x = found.cos_beta
+        turned = angle_of_poles(r1, r5, total * x, e_lo * x, found.sin_beta, ARRAYS)
+    turned = np.where(turned < 0.0, turned + _TURN, turned)
+    return MomentaryDwells(np.where(exists, found.frame, np.nan), np.where(exists, turned, np.nan), exists)

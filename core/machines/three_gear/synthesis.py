@@ -49,10 +49,19 @@ class Task:
 
     Parameters
         spec : ThreeGearSpec - its gears, limits and shafts count, and the section of the task
+    Fields
+        section, keys : str - the section of the file, and what it needs
     """
+
+    section = keys = ""
 
     def __init__(self, spec: ThreeGearSpec) -> None:
         self.spec = spec
+
+    @property
+    def request(self) -> Any:
+        """The section."""
+        return section_of(self.spec, self.section, self.keys)
 
     def linkage_of(self, idler: int) -> FourBar:
         """The links that meet the task with an idler of so many teeth."""
@@ -135,9 +144,6 @@ class FamilyTask(Task):
 
     Gears of any size, and equal ones with a given crank or frame, have one bracketed root instead: `in_family`.
     """
-
-    section = ""
-    """The section of the file."""
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """The linkage of a family in one unknown that meets the task."""
@@ -415,12 +421,7 @@ def _within_a_tolerance(trial: ThreeGearFourBar) -> bool:
 class BackStepTask(FamilyTask):
     """A back-step of the output, the crank angle phi12 that it takes, or both."""
 
-    section = "back_step"
-
-    @property
-    def request(self) -> Any:
-        """The section."""
-        return section_of(self.spec, "back_step", "angle, crank_angle (deg)")
+    section, keys = "back_step", "angle, crank_angle (deg)"
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """One of back-step and crank angle, met by the root of the one unknown."""
@@ -515,12 +516,7 @@ class BackStepSynthesis(ThreeGearFourBar):
 class SpeedTask(FamilyTask):
     """The minimum and the maximum speed of the output."""
 
-    section = "speed"
-
-    @property
-    def request(self) -> Any:
-        """The section."""
-        return section_of(self.spec, "speed", "min, max (1/min)")
+    section, keys = "speed", "min, max (1/min)"
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
@@ -643,10 +639,7 @@ _STEPS = (
 class MomentaryTask(Task):
     """An output that stops just once a revolution: any three gears and one length are given, the other is sought."""
 
-    @property
-    def request(self) -> Any:
-        """The section."""
-        return section_of(self.spec, "momentary", "eccentricity, frame or gap (mm), or balanced")
+    section, keys = "momentary", "eccentricity, frame or gap (mm), or balanced"
 
     def linkage_of(self, idler: int) -> FourBar:
         """Frame length in closed form, instead of thesis (4-26)..(4-33)."""

@@ -80,8 +80,3 @@ def test_dwell_angles_of_studies_agree_with_the_scalar_root():
     found = 0.5 * phi12.ravel() + symmetric.regained(1.0 - i3.ravel(), 0.5 * phi12.ravel(), ARRAYS)
     exact = np.array([dwell_angle(float(r), float(p)) for r, p in zip(i3.flat, phi12.flat, strict=True)])
     assert np.max(np.abs(found / exact - 1.0)) < 1e-13
-
-
-def test_refuses_values_outside_their_range():
-    with pytest.raises(NoSolution, match="positive and finite"):
-        momentary_dwells(25.0, 25.0, 0.0, 16.0)
