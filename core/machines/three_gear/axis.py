@@ -21,7 +21,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -105,6 +105,15 @@ class Batch:
         wanted : names of the quantities
         meshes : UnshiftedMeshes - of the base's pressure angle
         columns : (N,) arrays by path
+    Fields
+        reasons : keys that designs are refused for
+        reason : 0, or 1 + the place in `reasons` that a design is refused for; what the class refuses first counts
+        wrong_with_every_idler : designs whose refusal no idler could avoid
+        links : crank AB and frame AD
+        speeds, places_of_speeds : maximum and minimum speed ratio, and their crank angles
+        standstills : crank angles of the first and the second one
+        doubtful : designs that the class shall compute
+        links_are_doubtful : those among them whose links or transmission angle hang by few digits
     """
 
     keys: tuple[str, ...] = ()
@@ -132,68 +141,46 @@ class Batch:
         if path in self._columns:
             return np.asarray(self._columns[path], dtype=float)
         value = number_at(self.spec, path)
-        return np.full(self.count, np.nan if value is None else value)
+        return self.nothing if value is None else np.full(self.count, value)
 
     # What a task gives, in mm and radians; NaN where there is none
 
-    reasons: tuple[str, ...]
-    """Keys that designs are refused for."""
+    if TYPE_CHECKING:
 
-    @property
-    def reason(self) -> Any:
-        """0, or 1 + the place in `reasons` that a design is refused for; what the class refuses first counts."""
-        raise NotImplementedError
-
-    @property
-    def links(self) -> tuple[Reals, Reals]:
-        """Crank AB and frame AD."""
-        raise NotImplementedError
-
-    @property
-    def speeds(self) -> tuple[Reals, Reals]:
-        """Maximum and minimum speed ratio."""
-        raise NotImplementedError
-
-    @property
-    def places_of_speeds(self) -> tuple[Reals, Reals]:
-        """Crank angles of the maximum and the minimum speed."""
-        raise NotImplementedError
-
-    @property
-    def standstills(self) -> tuple[Reals, Reals]:
-        """Crank angles of the first and the second one."""
-        raise NotImplementedError
+        @property
+        def reasons(self) -> tuple[str, ...]: ...
+        @property
+        def reason(self) -> Any: ...
+        @property
+        def wrong_with_every_idler(self) -> Mask: ...
+        @property
+        def links(self) -> tuple[Reals, Reals]: ...
+        @property
+        def speeds(self) -> tuple[Reals, Reals]: ...
+        @property
+        def places_of_speeds(self) -> tuple[Reals, Reals]: ...
+        @property
+        def standstills(self) -> tuple[Reals, Reals]: ...
+        @property
+        def doubtful(self) -> Mask: ...
+        @property
+        def links_are_doubtful(self) -> Mask: ...
 
     @property
     def back_step(self) -> tuple[Reals, Reals]:
         """Its size, and its crank angle phi12."""
-        raise NotImplementedError
+        return self.nothing, self.nothing
 
     @property
     def dwell_angle(self) -> Reals:
         """phi13."""
-        raise NotImplementedError
-
-    @property
-    def doubtful(self) -> Mask:
-        """Designs that the class shall compute."""
-        raise NotImplementedError
-
-    @property
-    def links_are_doubtful(self) -> Mask:
-        """Those among them whose links or transmission angle hang by few digits."""
-        raise NotImplementedError
+        return self.nothing
 
     def of_task(self) -> Iterator[Findings]:
         """Findings of the task's own checks."""
         yield from ()
 
     # What follows from it
-
-    @property
-    def wrong_with_every_idler(self) -> Mask:
-        """Designs whose refusal no idler could avoid."""
-        raise NotImplementedError
 
     @cached_property
     def refused(self) -> Any:
@@ -225,6 +212,17 @@ class Batch:
     def none(self) -> Mask:
         """No design."""
         return np.zeros(self.count, dtype=bool)
+
+    @cached_property
+    def nothing(self) -> Reals:
+        """What no design has."""
+        return np.full(self.count, np.nan)
+
+    def spread(self, places: Any, values: Reals) -> Reals:
+        """Values of some designs, whose places or mask are given, among those that have none."""
+        found = self.nothing.copy()
+        found[places] = values
+        return found
 
     @cached_property
     def coupler(self) -> Reals:
@@ -344,9 +342,7 @@ class Batch:
     def band(self) -> tuple[Reals, Reals]:
         """Start and crank angle of the dwell within the tolerance."""
         places, dwells = self._dwells
-        start, width = np.full(self.count, np.nan), np.full(self.count, np.nan)
-        start[places], width[places] = dwells.start, dwells.crank_angle
-        return start, width
+        return self.spread(places, dwells.start), self.spread(places, dwells.crank_angle)
 
     @cached_property
     def _band_is_doubtful(self) -> Mask:
@@ -534,17 +530,7 @@ class Momentary(General):
     def standstills(self) -> tuple[Reals, Reals]:
         """The one of the momentary dwell."""
         angle = self._found.crank_angle
-        return (angle if self.spec.assembly == 1 else sweep.wrapped(-angle)), np.full(self.count, np.nan)
-
-    @cached_property
-    def back_step(self) -> tuple[Reals, Reals]:
-        """None."""
-        return np.full(self.count, np.nan), np.full(self.count, np.nan)
-
-    @cached_property
-    def dwell_angle(self) -> Reals:
-        """None."""
-        return np.full(self.count, np.nan)
+        return (angle if self.spec.assembly == 1 else sweep.wrapped(-angle)), self.nothing
 
 
 class Analysis(General):
@@ -597,45 +583,42 @@ class Analysis(General):
     @property
     def start_of_back_step(self) -> Reals:
         """Of standstills in ascending order it may be the second."""
-        return self._spread(self._stepping[0])
-
-    def _spread(self, values: Reals) -> Reals:
-        found = np.full(self.count, np.nan)
-        found[self._places] = values
-        return found
+        return self.spread(self._places, self._stepping[0])
 
     @cached_property
     def back_step(self) -> tuple[Reals, Reals]:
         """Between the standstills."""
         _, width, size = self._stepping
-        return self._spread(size), self._spread(width)
+        return self.spread(self._places, size), self.spread(self._places, width)
 
     @cached_property
     def dwell_angle(self) -> Reals:
         """Until the output has regained its place."""
         start, width, _ = self._stepping
-        return self._spread(sweep.dwell_angle(start, width, self.drives.part(self._places)))
+        return self.spread(self._places, sweep.dwell_angle(start, width, self.drives.part(self._places)))
 
 
 class Symmetric(Batch):
-    """Designs of the family I = 1; a task gives h = phi12/2."""
+    """Designs of the family I = 1.
+
+    Fields
+        possible : where equal gears meet the task
+        h : half of phi12 [rad]; NaN where the output has no standstill
+    """
 
     idlers_rise = True
 
-    @property
-    def possible(self) -> Mask:
-        """Where equal gears meet the task."""
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        @property
+        def possible(self) -> Mask: ...
+        @property
+        def h(self) -> Reals: ...
 
     @property
     def impossible(self) -> Any:
         """Place among the reasons of a task that cannot be met."""
         return 1
-
-    @property
-    def h(self) -> Reals:
-        """Half of phi12 [rad]; NaN where the output has no standstill."""
-        raise NotImplementedError
 
     @property
     def wrong_with_every_idler(self) -> Mask:
@@ -700,11 +683,9 @@ class Symmetric(Batch):
     @cached_property
     def dwell_angle(self) -> Reals:
         """From its equation."""
-        angle, places = np.full(self.count, np.nan), np.flatnonzero(self._steps_back)
-        if places.size:
-            h = self.h[places]
-            angle[places] = h + symmetric.regained(self.n[places], h, ARRAYS)
-        return angle
+        places = np.flatnonzero(self._steps_back)
+        h = self.h[places]
+        return self.spread(places, h + symmetric.regained(self.n[places], h, ARRAYS)) if places.size else self.nothing
 
     @cached_property
     def doubtful(self) -> Mask:
@@ -753,9 +734,8 @@ class Dwells(OfDwell):
     @cached_property
     def h(self) -> Reals:
         """From phi13."""
-        h, good = np.full(self.count, np.nan), self.exists
-        h[good] = symmetric.half_angle_for_dwell(self.n[good], self._asked[good], ARRAYS)
-        return h
+        good = self.exists
+        return self.spread(good, symmetric.half_angle_for_dwell(self.n[good], self._asked[good], ARRAYS))
 
     @cached_property
     def dwell_angle(self) -> Reals:
@@ -776,7 +756,7 @@ class Windows(OfDwell):
     chooses_idler = False
 
     @property
-    def reasons(self) -> tuple[str, ...]:  # type: ignore[override]
+    def reasons(self) -> tuple[str, ...]:
         """The key that asks for the dwell is the one at fault."""
         return "gears.output", "dwell.window" if self._by_window else "dwell.tolerance"
 
@@ -810,19 +790,20 @@ class Windows(OfDwell):
     @cached_property
     def h(self) -> Reals:
         """From the window, or from the back-step that fills the band but for the margin."""
-        h, good = np.full(self.count, np.nan), self.exists
-        found = symmetric.half_angle_for_window if self._by_window else symmetric.half_angle_for_back_step
-        h[good] = found(self.n[good], (self._window if self._by_window else self._back_step_sought)[good], ARRAYS)
-        return h
+        good = self.exists
+        if self._by_window:
+            return self.spread(good, symmetric.half_angle_for_window(self.n[good], self._window[good], ARRAYS))
+        sought = self._back_step_sought[good]
+        return self.spread(good, symmetric.half_angle_for_back_step(self.n[good], sought, ARRAYS))
 
     @cached_property
     def _longest(self) -> Reals:
         """The longest window that the tolerance leaves to the gears."""
-        longest, good = np.full(self.count, np.nan), self.exists
-        if good.any():
-            h = symmetric.half_angle_for_back_step(self.n[good], 2.0 * self.given_tolerance[good], ARRAYS)
-            longest[good] = 2.0 * symmetric.regained(self.n[good], h, ARRAYS)
-        return longest
+        good = self.exists
+        if not good.any():
+            return self.nothing
+        h = symmetric.half_angle_for_back_step(self.n[good], 2.0 * self.given_tolerance[good], ARRAYS)
+        return self.spread(good, 2.0 * symmetric.regained(self.n[good], h, ARRAYS))
 
     @property
     def plain(self) -> dict[str, Callable[[], Any]]:
