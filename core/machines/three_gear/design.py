@@ -636,18 +636,18 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
         links : FourBar [mm]
         own : dict of GearPair - meshes with teeth of their own; None: standard teeth
     """
-    module, shafts = spec.gears.module, spec.shafts
-    gears = (
-        _own(own, train, spec.gears)
-        if own is not None
-        else (
-            _gear("the crank gear", "B", train.crank, train, spec.gears, "CD" if train.internal else "C"),
-            Gear("the idler", "C", tip_radius(train.idler, module), mates="BD"),
-            _gear("the output gear", "D", train.output, train, spec.gears, "C"),
-        )
-    )
+    gears, module, shafts, mates = spec.gears, spec.gears.module, spec.shafts, "CD" if train.internal else "C"
+    if own is None:
+        crank = _standard("B", train.crank, train, "the crank gear", gears, mates)
+        idler = tip_radius(train.idler, module)
+        output = _standard("D", train.output, train, "the output gear", gears, "C")
+    else:
+        first, second = own.values()
+        crank = _end("B", first, "the crank gear", gears, mates)
+        idler = first.tip_radius[0 if first.internal else 1]  # in the pair of a ring it is the first
+        output = _end("D", second, "the output gear", gears, "C")
     return Layout(
-        gears=gears,
+        gears=(crank, Gear("the idler", "C", idler, mates="BD"), output),
         shafts=(
             Shaft("input shaft", "A", shafts.input_radius if shafts else None, "shafts.input_radius"),
             Shaft("output shaft", "D", shafts.output_radius if shafts else None, "shafts.output_radius"),
@@ -662,13 +662,12 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
     )
 
 
-def _gear(name: str, axis: str, teeth: float, train: GearTrain, gears: Gears, mates: str) -> Gear:
-    """A gear by its teeth; a ring for negative ones. Rings stand in a plane of their own, apart from the other gear."""
-    if teeth > 0:
-        tip = tip_radius(teeth, gears.module)
-        return Gear(name, axis, tip, mates=mates, root=tip - FULL_HEIGHT * gears.module)
-    mesh = GearPair.from_shift(gears.module, (int(train.idler), int(teeth)))
-    return Gear(f"{name}, a ring,", axis, _outer(axis, mesh, gears), -mesh.tip_radius[1], mates)
+def _standard(axis: str, teeth: float, train: GearTrain, name: str, gears: Gears, mates: str) -> Gear:
+    """Crank or output gear with standard teeth; a ring for negative ones."""
+    if teeth < 0:
+        return _end(axis, GearPair.from_shift(gears.module, (int(train.idler), int(teeth))), name, gears, mates)
+    tip = tip_radius(teeth, gears.module)
+    return Gear(name, axis, tip, mates=mates, root=tip - FULL_HEIGHT * gears.module)
 
 
 def _outer(axis: str, mesh: Any, gears: Gears) -> float:
@@ -677,24 +676,10 @@ def _outer(axis: str, mesh: Any, gears: Gears) -> float:
     return rim_radius(root, mesh.module, gears.rim_at(0 if axis == "B" else 2, root) if given is None else given)
 
 
-def _own(meshes: Mapping[str, Any], train: GearTrain, gears: Gears) -> tuple[Gear, Gear, Gear]:
-    """Gears with tips of their own; in the pair of a ring the idler is the first."""
-    first, second = meshes.values()
-    idler = first.tip_radius[0 if first.internal else 1]
-    mates = "CD" if train.internal else "C"
-    crank = "the crank gear, a ring," if first.internal else "the crank gear"
-    output = "the output gear, a ring," if second.internal else "the output gear"
-    return (
-        _end("B", first, crank, gears, mates),
-        Gear("the idler", "C", idler, mates="BD"),
-        _end("D", second, output, gears, "C"),
-    )
-
-
 def _end(axis: str, pair: Any, name: str, gears: Gears, mates: str) -> Gear:
-    """Crank or output gear of its pair."""
+    """Crank or output gear of its pair; a ring stands in a plane of its own, apart from the other gear."""
     if pair.internal:
-        return Gear(name, axis, _outer(axis, pair, gears), -pair.tip_radius[1], mates)
+        return Gear(f"{name}, a ring,", axis, _outer(axis, pair, gears), -pair.tip_radius[1], mates)
     place = 0 if axis == "B" else 1
     return Gear(name, axis, pair.tip_radius[place], mates=mates, root=pair.root_radius[place])
 

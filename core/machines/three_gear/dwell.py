@@ -31,10 +31,6 @@ from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.geared_output import GearedOutput
 from gearlink.core.parts.linkages.standstills import standstills
 
-UNIDIRECTIONAL = "unidirectional"
-MOMENTARY_DWELL = "momentary-dwell"
-BACK_STEP = "back-step"
-
 # A frame that is off by 1e-9 of its length moves the minimum speed ratio by about as much. No workshop can tell such
 # frames apart, so nearer to zero than this the output has one standstill, not two or none.
 STANDSTILL_TOLERANCE = 1e-9
@@ -176,7 +172,7 @@ def motion(places: list[float]) -> str:
     Source
         thesis 4.1.2, 4.2.1
     """
-    return (UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP)[min(len(places), 2)]
+    return ("unidirectional", "momentary-dwell", "back-step")[min(len(places), 2)]
 
 
 def _radii(linkage: FourBar, train: GearTrain) -> tuple[float, float, float]:

@@ -41,7 +41,7 @@ from gearlink.core.machines.three_gear.momentary import (
 from gearlink.core.machines.three_gear.train import GearTrain
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.standstills import Turning
+from gearlink.core.parts.linkages.standstills import TURN, Turning
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.design import ThreeGearFourBar
@@ -167,16 +167,23 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
     Raises
         NoSolution - for a frame with which no crank-rocker exists
     """
-    if is_internal(r1, r3, r5):
-        return _ring_with_frame(r1, r3, r5, frame, assembly)
-    b, c = r1 + r3, r3 + r5
+    b, c = abs(r1 + r3), abs(r3 + r5)
     high = longest_crank(frame, b, c)
+
+    def linkage(e: float) -> FourBar:
+        return FourBar(e, b, c, frame, assembly)
+
+    if is_internal(r1, r3, r5):
+        words = f"frame: {short(frame)} mm, with which no crank makes the output step back"
+        return _rising(r1, r3, r5, linkage, min(high, abs(r1)), f"{words}
+change the frame or the gears")
     low, why = 0.0, ""
     try:
         low = eccentricity_for_frame(r1, r3, r5, frame)
     except NoSolution as error:
-        why = f"{error.message}\n{error.fix}"
-    return Family(lambda e: FourBar(e, b, c, frame, assembly), 0.0, min(low, high), high, why)
+        why = f"{error.message}
+{error.fix}"
+    return Family(linkage, 0.0, min(low, high), high, why)
 
 
 def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
@@ -428,14 +435,6 @@ def words(found: tuple[Room, ...]) -> str:
 # Trains with a ring
 
 
-def _ring_with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1) -> Family:
-    """`with_frame` of a train with a ring."""
-    b, c = abs(r1 + r3), abs(r3 + r5)
-    high = longest_crank(frame, b, c)
-    why = f"frame: {short(frame)} mm, with which no crank makes the output step back\nchange the frame or the gears"
-    return _rising(r1, r3, r5, lambda e: FourBar(e, b, c, frame, assembly), min(high, abs(r1)), why)
-
-
 def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> FourBar:
     """The crank-rocker of a given crank whose output just stops.
 
@@ -482,7 +481,6 @@ def _rising(r1: float, r3: float, r5: float, linkage: Callable[[float], FourBar]
     return Family(linkage, 0.0, low, high, why)
 
 
-TURN = 2.0 * math.pi
 _UNIFORM_STEPS = 720
 _FIRST, _GROWTH, _MOST = 1e-9, 1.02, 1e6
 Speed = Callable[[float], float]

@@ -407,16 +407,12 @@ class TolerancedDrive(ThreeGearFourBar):
     @cached_property
     def meshes(self) -> dict[str, GearPair]:
         """The teeth as they were cut, at the centre distances as manufactured."""
-        if self.own_teeth:
-            return dict(self._own_pairs)
-        return {
-            name: at_distance(mesh, off) for (name, mesh), off in zip(self.cut.meshes.items(), self._off, strict=True)
-        }
+        pairs = zip(self.cut.meshes.items(), self._off, strict=True)
+        return {name: at_distance(mesh, off) for (name, mesh), off in pairs}
 
-    @cached_property
+    @property
     def _own_pairs(self) -> dict[str, GearPair]:
-        pairs = zip(self.cut._own_pairs.items(), self._off, strict=True)
-        return {name: at_distance(pair, off) for (name, pair), off in pairs}
+        return self.meshes
 
     @property
     def _off(self) -> tuple[float, float]:
