@@ -59,13 +59,9 @@ def _seen(law: StrokeLaw, turn: Reals) -> Seen:
     return law.view_at(turn), law.share_from_middle(turn)
 
 
-def _seen_again(law: Any, turn: Reals) -> Seen:
-    """The same, kept for the other cam and other designs of one law, which ask at the same angles."""
-    return _kept(law, turn.tobytes())
-
-
 @lru_cache(maxsize=8)
 def _kept(law: StrokeLaw, turns: bytes) -> Seen:
+    """The same, kept for the other cam and other designs of one law, which ask at the same angles."""
     return _seen(law, np.frombuffer(turns))
 
 
@@ -287,7 +283,7 @@ class ClosedCam:
         def points(places: Reals) -> tuple[Points, Points]:
             pitch, contour = (np.empty(places.shape, dtype=np.complex128) for _ in range(2))
             for sector, here, part in _parts_of_sectors(places):
-                state, t = self._by_turn(sector, part, _seen_again)
+                state, t = self._by_turn(sector, part, lambda law, turn: _kept(law, turn.tobytes()))
                 pitch[here] = centres = self._pitch(state)
                 contour[here] = self._contour(sector, state, t, centres)
             return pitch, contour

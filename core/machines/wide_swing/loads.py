@@ -61,13 +61,10 @@ _STANDSTILL = 1e-4
 Wanted: TypeAlias = "dict[str, tuple[Callable[[Reals], Reals], bool]]"
 
 
-def _extremes(wanted: Wanted, parts: Parts, joints: Sequence[float] = ()) -> dict[str, Extreme]:
-    """Maximum or minimum values of functions over parts of a stroke."""
-    found = extremes_of_parts(list(wanted.values()), parts, joints=joints, samples=128)
-    return {
-        name: (max if greatest else min)((of_part[i] for of_part in found), key=lambda extreme: extreme.value)
-        for i, (name, (_, greatest)) in enumerate(wanted.items())
-    }
+def _extreme(f: Callable[[Reals], Reals], greatest: bool, parts: Parts, joints: Sequence[float] = ()) -> float:
+    """Maximum or minimum value of a function over parts of a stroke."""
+    found = extremes_of_parts([(f, greatest)], parts, joints=joints, samples=128)
+    return (max if greatest else min)(extreme.value for (extreme,) in found)
 
 
 class SwingStroke:
@@ -120,7 +117,7 @@ class SwingStroke:
     @property
     def least_standing(self) -> float:
         """Minimum force of the roller on its cam while the machine stands, without friction [N]."""
-        return _extremes({"least": (lambda k: self._parted(k)[0], False)}, self.parts, self.joints)["least"].value
+        return _extreme(lambda k: self._parted(k)[0], False, self.parts, self.joints)
 
     @property
     def most_unloading(self) -> float:
@@ -130,7 +127,7 @@ class SwingStroke:
             rest, swung = self._parted(k)
             return np.asarray(-swung / rest)
 
-        return _extremes({"most": (unloading, True)}, self.parts, self.joints)["most"].value
+        return _extreme(unloading, True, self.parts, self.joints)
 
     def relative_radius(self, k: Reals) -> Reals:
         """R = r_g (1 - r_g kappa) of roller and profile [mm], kappa positive where the body is convex."""
@@ -186,13 +183,11 @@ class SwingStroke:
         """Whether the roller is somewhere as large as the bend of its path: there is no contact there."""
         if self.loads.spec.drive is None and self.parts:  # where it touches, its cam has been searched for the same
             return self.cam.min_curvature_radius <= self.cam.roller_radius
-        radius = _extremes({"least": (self.relative_radius, False)}, self.curved_parts)["least"]
-        return radius.value <= 0.0
+        return _extreme(self.relative_radius, False, self.curved_parts) <= 0.0
 
     def greatest(self, f: Callable[[Reals], Reals], *, curved: bool = False) -> float:
         """Maximum value where the roller touches; `curved`: of what depends on the curvature there."""
-        parts = self.curved_parts if curved else self.parts
-        return _extremes({"greatest": (f, True)}, parts)["greatest"].value
+        return _extreme(f, True, self.curved_parts if curved else self.parts)
 
     @property
     def pressed(self) -> dict[str, Extreme]:
