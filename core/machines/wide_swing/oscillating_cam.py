@@ -32,7 +32,7 @@ from gearlink.core.machines.wide_swing.cam import (
 )
 from gearlink.core.machines.wide_swing.slider import AimedLaw, SliderLaw
 from gearlink.core.mechanism.rates import Rates, Turn, carried, cross, fixed, mixed
-from gearlink.core.numerics.arrays import Points, Reals, number_of
+from gearlink.core.numerics.arrays import Points, Reals, number_of, unit_vector
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
 from gearlink.core.numerics.gauss import gauss_legendre
 from gearlink.core.numerics.roots import bracketed_root
@@ -475,12 +475,16 @@ def way_home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Rates[Reals]
         mirror images on that line. At both ends, where cam and rocker stand still, nothing is 0/0.
     """
     bar, start, span = cam.drive.linkage, cam.drive.crank_angles[0], cam.drive.crank_span
-    end = carried(fixed(bar.frame, turned, order=order), turns(bar, start + turned, order)[1], bar.rocker)
-    rate, curve = end.first / end.value, end.second / end.value
+    _, rocker = turns(bar, start + turned, order)
+    arm = bar.rocker * unit_vector(rocker.value)
+    end = bar.frame + arm
+    share, speed = arm / end, rocker.first
+    rate, curve = 1j * speed * share, (1j * rocker.second - speed**2) * share
     rates = [2.0 * rate.imag - 1.0, 2.0 * (curve - rate * rate).imag]
     if order > 2:
-        rates.append(2.0 * (end.third / end.value - 3.0 * curve * rate + 2.0 * rate**3).imag)
-    forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end.value) - 2.0 * start - turned)
+        jerk = (1j * (rocker.third - speed**3) - 3.0 * speed * rocker.second) * share
+        rates.append(2.0 * (jerk - 3.0 * curve * rate + 2.0 * rate**3).imag)
+    forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end) - 2.0 * start - turned)
     return Rates(_within(forth, 0.0, span) / span, *(each / span for each in rates))
 
 
