@@ -175,14 +175,12 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
 
     if is_internal(r1, r3, r5):
         words = f"frame: {short(frame)} mm, with which no crank makes the output step back"
-        return _rising(r1, r3, r5, linkage, min(high, abs(r1)), f"{words}
-change the frame or the gears")
+        return _rising(r1, r3, r5, linkage, min(high, abs(r1)), f"{words}\nchange the frame or the gears")
     low, why = 0.0, ""
     try:
         low = eccentricity_for_frame(r1, r3, r5, frame)
     except NoSolution as error:
-        why = f"{error.message}
-{error.fix}"
+        why = f"{error.message}\n{error.fix}"
     return Family(linkage, 0.0, min(low, high), high, why)
 
 

@@ -117,7 +117,7 @@ def test_without_a_name_the_charts_are_listed(gearlink: Any) -> None:
         (("back-step", "--curves", "190"), "below 180 deg"),
         (("nonuniformity", "--curves", "13"), "2 (1 - i3) ="),
         (("speed-swing", "--curves", "3"), "has one curve"),
-        (("speed-swing", "--range", "0:3"), "frame over crank: 0 (limit > 1"),
+        (("speed-swing", "--range", "0:3"), "frame over crank: 0 (limit >= 1"),
         (("back-step", "--design", "designs/ty460.yaml"), "a flatbed-press is not in the chart back-step"),
         (("back-step", "--design", "designs/thesis_example_3_mended.yaml"), "set gears.output to 20"),
         (("back-step", "--design", "designs/thesis_example_2.yaml"), "never steps back"),
