@@ -175,6 +175,8 @@ def errors(design: PlanarMechanism, _mechanism: Mechanism) -> Movable:
         sizes[f"cams.{name}.phase"] = (_turned(link, name, cam.sense, cam.bore),)
         if cam.given.face is None:
             sizes[f"cams.{name}.roller_radius"] = outwards
+        else:
+            sizes[f"cams.{name}.face"] = (_turned(structure.names[cam.follower], name, 1, cam.point),)
     gears = {name: gear for mesh in structure.spec.meshes for name, gear in _gears(structure, mesh)}
     return Movable(sizes, others=profiles, gears=gears, own=_own(design))
 

@@ -148,6 +148,23 @@ def test_gains_are_the_changes_of_designs_made_anew(name: str) -> None:
         assert found - found[0] == pytest.approx(one.gain - one.gain[0], abs=2e-8), one.source
 
 
+def test_a_tilted_face_and_a_turned_cam_in_closed_form() -> None:
+    """A face touches the cam ds/dphi beside the ram's point, and rests there as the ram sinks by the tilt; a cam that
+    is ahead lifts by ds/dphi."""
+    keys: dict[str, Any] = {"frame": {"O": [0, 0]}, "links": {"shaft": {"O": [0, 0]}, "ram": {"S": [0, 0]}}}
+    lift = [{"to": 120, "lift": 20}, {"to": 180}, {"to": 300, "lift": 0}, {"to": 360}]
+    keys["cams"] = {"cam": {"cam": "shaft", "follower": "ram", "point": "S", "face": 90.0, "motion": lift}}
+    keys["slides"] = {"guide": {"link": "ram", "through": [0, 0], "direction": 90}}
+    keys |= {"drive": {"link": "shaft"}, "start": {"guide": 80}, "outputs": ["guide"]}
+    keys["tolerance"] = {"sources": {"cams.cam.face": SIZE, "cams.cam.phase": SIZE}}
+    made = factory.design({"kind": "planar-mechanism", **keys}, command="register")
+    phi = np.linspace(0.1, 6.2, 50)
+    slope = made.course.rates(made.motion, phi, 1)[1] * math.radians(1.0)
+    found = {one.source: one.gain for one in made.contributions(phi, 1)}
+    assert found["cams.cam.face"] == pytest.approx(-slope, abs=1e-14)
+    assert found["cams.cam.phase"] == pytest.approx(slope, abs=1e-14)
+
+
 def test_limits_of_angles_are_not_in_millimetres() -> None:
     """The limit of a direction, in degrees, stood below mm; its gain is per degree."""
     table = register("planar_quick_return", ("slots.slot.direction", "frame.C[0]")).table("budget")
