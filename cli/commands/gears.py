@@ -169,7 +169,9 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
         return ExitCode.OK
     if not options.quiet:
         remedy = (
-            _remedy(task) if carried is None else "increase --center-distance or --width-ratio, or a better --material"
+            _remedy(task)
+            if carried is None
+            else "increase --center-distance or --width-ratio, or name a better --material"
         )
         print(f"no pair meets these conditions: {remedy}", file=sys.stderr)
     return ExitCode.FINDING

@@ -334,8 +334,7 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
             raise wrong_kind(loaded, f"a {kind.name} has no cam that a servo drive could replace")
         with refusals_located(loaded):
             motion, count = design.follower_motion, _servo_rows(design, rows, tolerance)
-            table, error = servo_table(motion, count, rocks=design.rocks), greatest_error(motion, count)
-            as_read = greatest_error(motion, count, end_side=1)
+            table = servo_table(motion, count, rocks=design.rocks)
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerows(table_rows(table))
@@ -344,7 +343,8 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
     except (DesignFileError, CannotWrite) as refused:
         return show_refusal(refused, source, options)
     if not options.quiet:
-        shown, stepped = (f"{math.degrees(e):.3g} deg" if design.rocks else f"{e:.3g} mm" for e in (error, as_read))
+        errors = (greatest_error(motion, count, end_side=side) for side in (-1, 1))
+        shown, stepped = (f"{math.degrees(each):.3g} deg" if design.rocks else f"{each:.3g} mm" for each in errors)
         more = f" ({stepped} before rows with a step, which have the values after it)" if stepped != shown else ""
         print(f"{visible(str(path))}: {count} rows, off by at most {shown} between them{more}{in_place(path)}")
     return _warned(_failed(design))

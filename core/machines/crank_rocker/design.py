@@ -181,7 +181,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Least transmission angle over a revolution or the range [rad]: at an end, or with the crank on the frame.
+        """Least transmission angle of a revolution or the range [rad]: at an end, or with crank and frame in line.
 
         Source
             |BD| runs one way between crank angles 0 and 180 deg

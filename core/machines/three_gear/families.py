@@ -58,8 +58,8 @@ class Family:
     """Linkages in one unknown length.
 
     linkage : of the unknown [mm]
-    minimum, high : the range of the unknown [mm]
-    low : the value [mm] at which the output just stops, or `minimum`; None where it never stops
+    least, high : the range of the unknown [mm]
+    low : the value [mm] at which the output just stops, or `least`; None where it never stops
     why : str - the reason for that, or why none steps back
     key : str - the key of the file that is to blame
     """

@@ -644,8 +644,8 @@ class WideSwingCam(StrokeCam):
                 f"peak speed of the rocker over that of the cam: {unlike(self.speed_ratio_peak, 1.0)} (limit > 1 "
                 "for a twin-rocker)",
                 fix=(
-                    f"reduce {self.angle_words} to at most {safely_below(0.5 * limit)} deg, or increase the swing "
-                    f"(up to {safely_below(limit)} deg the rocker is longer than the centre distance)"
+                    f"reduce {self.angle_words} to at most {safely_below(0.5 * limit)} deg (with up to "
+                    f"{safely_below(limit)} deg the rocker is longer than the centre distance), or increase the swing"
                 ),
             )
 

@@ -351,7 +351,7 @@ def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
     if not deeper and gear.pair.keeps_clearance:
         remedy += f" to {found.warns_below:g} or more"
     else:
-        missing = safely_above(found.warns_below - found.value, 3) if found.status != "pass" else ""
+        missing = safely_above(found.warns_below - found.value, 3)
         remedy += f" by {missing} modules, or shorten the tips of {gear.mate}"
     yield ROOT_CLEARANCE.below(*found, "1", subject, remedy)
 

@@ -59,10 +59,6 @@ class Row:
     mean: float
     unit: str = "mm"
 
-    def cells(self) -> tuple[float | str, ...]:
-        """Source, gain, limit, its unit, worst, sigma, share, mean."""
-        return self.source, self.gain, self.limit, self.unit, self.worst, self.sigma, self.share, self.mean
-
 
 def budget_table(before: str, rows: Sequence[tuple[float | str, Row]]) -> Table:
     """Sources where the whole is worst, after one column; with units of the limits where some are angles.
@@ -71,13 +67,18 @@ def budget_table(before: str, rows: Sequence[tuple[float | str, Row]]) -> Table:
         before : str - name of the first column
         rows : its entries, and the sources
     """
-    columns = [before, "source", "gain", "limit", "unit", "worst", "sigma", "share", "mean"]
-    units = ["1", "1", "1", "1", "1", "mm", "mm", "1", "mm"]
-    data = list(zip(*((first, *row.cells()) for first, row in rows), strict=True))
-    if all(row.unit == "mm" for _, row in rows):
-        units[3] = "mm"
-        del columns[4], units[4], data[4]
-    return Table("budget", tuple(columns), tuple(units), tuple(data))
+    mixed = any(row.unit != "mm" for _, row in rows)
+    columns: dict[str, tuple[Any, str]] = {
+        before: ([first for first, _ in rows], "1"),
+        "source": ([row.source for _, row in rows], "1"),
+        "gain": ([row.gain for _, row in rows], "1"),
+        "limit": ([row.limit for _, row in rows], "1" if mixed else "mm"),
+    }
+    if mixed:
+        columns["unit"] = [row.unit for _, row in rows], "1"
+    for name, unit in (("worst", "mm"), ("sigma", "mm"), ("share", "1"), ("mean", "mm")):
+        columns[name] = [getattr(row, name) for _, row in rows], unit
+    return Table.of("budget", columns)
 
 
 @dataclass(frozen=True, slots=True)

@@ -317,7 +317,7 @@ def test_extremes_against_a_fine_sweep(layout: Layout) -> None:
 
 def test_twin_rocker_needs_a_fast_rocker() -> None:
     limit = math.degrees(LAW.velocity_peak * LAW.swing)
-    with pytest.raises(NoSolution, match=rf"limit > 1 .*up to {safely_below(limit)} deg the rocker is longer"):
+    with pytest.raises(NoSolution, match=rf"limit > 1 .*with up to {safely_below(limit)} deg the rocker is longer"):
         WideSwingCam("twin-rocker", LAW, math.radians(limit + 0.1), 200.0, 4.0)
     assert WideSwingCam("twin-rocker", LAW, math.radians(limit - 0.1), 200.0, 4.0).rocker_radius > 1e4
 

@@ -201,7 +201,7 @@ class ShapedRing:
         return carried + own, 1j * (by * own - rolled * carried), -(by * by * own + rolled * rolled * carried)
 
     def fillet(self, turn: float) -> complex:
-        """Point of the fillet, the ring's x axis in the middle of a space, over the revolution of the cutter [rad].
+        """Point of the fillet, the ring's x axis in the middle of a space, over the angle of the cutter [rad].
 
         The cutter's rounding leaves the envelope of its circle: the centre's path, moved outwards along its normal,
         which passes the pitch point. Where that lies beyond the centre the cutter turns the other way from the root

@@ -107,7 +107,7 @@ class RingProfile:
         ]
 
     def fillet(self, turn: Reals) -> Points:
-        """The root fillet over the revolution of the cutter [rad]."""
+        """The root fillet over the angle of the cutter [rad]."""
         assert self.shaped is not None, "a piece of shaped rings alone"
         return np.array([self.shaped.fillet(float(each)) for each in turn])
 
