@@ -124,12 +124,10 @@ def _angle(phi: Reals, links: Drives, found: Any) -> Reals:
     a, d, s, e = links.a, links.d, links.s, links.e
     sin, cc, ss, n2, r, _ = found
     drag = a > d
-    nu = np.where(
-        drag,
-        phi - math.pi + np.arctan2(d * sin, (a - d) * cc + (a + d) * ss),
-        np.arctan2(-a * sin, (d - a) * cc + (d + a) * ss),
-    )
-    coupler, rocker = nu + s * np.arctan2(r, e + n2), nu + s * np.arctan2(r, e - n2)
+    # The direction of D, seen from B, and R are never negative; coupler and rocker as in `linkages.fourbar.sweep`.
+    nu = np.arctan(np.where(drag, d, -a) * sin / (np.abs(d - a) * cc + (a + d) * ss))
+    nu = np.where(drag, nu + (phi - math.pi), nu)
+    coupler, rocker = (nu + s * (0.5 * math.pi - np.arctan(x / r)) for x in (e + n2, e - n2))
     return np.asarray(links.ratio * phi + links.coupler_share * coupler + links.rocker_share * rocker)
 
 

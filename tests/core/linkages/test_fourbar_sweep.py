@@ -234,3 +234,17 @@ def test_every_order_gives_the_same_lower_rates() -> None:
         part = sweep.solve(DRAG_LINK, phi, order)
         assert all(np.array_equal(getattr(part, n), getattr(full, n)) for n in names[: 3 + 2 * order])
         assert all(math.isnan(getattr(part, n)) for n in names[1 + 2 * count :])
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("lengths", [(4.0, 7.0, 1.0, 2.0), (3.0, 5.0, 1.0, 1.0), (8.0, 2.0, 3.0, 3.0)])
+def test_a_linkage_that_is_only_stretched_or_folded_lies_on_its_line(lengths: tuple[float, ...], assembly: int) -> None:
+    """It closes at one rocker angle alone, with P or Q exactly 0: a product of 0 and a negative factor."""
+    linkage = FourBar(*lengths, assembly=assembly)
+    a, b, c, d = lengths
+    one, many = fourbar.solve_inverse(linkage, 0.0), sweep.solve_inverse(linkage, np.array([0.0]))
+    for crank, coupler in ((one.crank_angle, one.coupler_angle), (many.crank_angle[0], many.coupler_angle[0])):
+        reach = a * math.cos(crank) + b * math.cos(coupler)
+        assert reach == pytest.approx(d + c, abs=16.0 * EPS * (a + b + c + d))
+    assert many.crank_angle[0] == pytest.approx(one.crank_angle, abs=8.0 * EPS)
+    assert many.coupler_angle[0] == pytest.approx(one.coupler_angle, abs=8.0 * EPS)

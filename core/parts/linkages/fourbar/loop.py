@@ -51,15 +51,17 @@ class Reading(NamedTuple):
 def make_reading(
     a: float, b: float, c: float, d: float, s: int, total: Callable[[tuple[float, ...]], float] = math.fsum
 ) -> Reading:
-    """Constants from the lengths; every factor is a correctly rounded sum (of arrays, by `sum`, a plain one)."""
+    """Constants from the lengths; every factor is a correctly rounded sum (of arrays, by `sum`, a plain one).
+
+    A product of 0 and a negative factor is 0, not -0, of which the root would turn the triangle over."""
     return Reading(
         *(a, b, c, d, s),
         n_0=(d - a) ** 2,
         n_pi=(d + a) ** 2,
-        p_0=total((a, b, c, -d)) * total((-a, b, c, d)),
-        p_pi=total((-a, b, c, -d)) * total((a, b, c, d)),
-        q_0=total((-a, -b, c, d)) * total((-a, b, -c, d)),
-        q_pi=total((a, -b, c, d)) * total((a, b, -c, d)),
+        p_0=total((a, b, c, -d)) * total((-a, b, c, d)) + 0.0,
+        p_pi=total((-a, b, c, -d)) * total((a, b, c, d)) + 0.0,
+        q_0=total((-a, -b, c, d)) * total((-a, b, -c, d)) + 0.0,
+        q_pi=total((a, -b, c, d)) * total((a, b, -c, d)) + 0.0,
         e=(b - c) * (b + c),
         f=0.5 * (a - d) * (a + d),
     )

@@ -1,9 +1,10 @@
 """The four-bar linkage over arrays of crank angles: one tangent a position, in blocks that stay in the cache.
 
 Frame, names and closed form are those of `core.parts.linkages.fourbar.position`. With t = tan(phi/2) every sum of
-`core.parts.linkages.fourbar.loop`, multiplied by 1 + t^2, is linear in t^2: the sweep needs no sine or cosine, and
-no arc tangent until an angle is asked for. What `loop.rates` computes stands here again, in rows that are filled in
-place: that function over arrays takes 1.15 (360 positions) to 2.5 times (3600) as long.
+`core.parts.linkages.fourbar.loop`, multiplied by 1 + t^2, is linear in t^2: the sweep needs no sine or cosine. Of the
+angles each is half a revolution wide at most, so that three arc tangents of quotients give them; one with two
+arguments takes twice as long where the processor has no AVX-512. What `loop.rates` computes stands here again, in rows
+that are filled in place: that function over arrays takes 1.15 (360 positions) to 2.5 times (3600) as long.
 
 The vector loop by Newton-Raphson is the second way, which checks the closed form.
 
@@ -161,7 +162,7 @@ def _sweep(reading: Reading, phi: Reals, order: int) -> Reals:
     out = np.empty((3 + 2 * order, *phi.shape))
     size = BLOCK if phi.ndim == 1 else max(1, BLOCK // max(1, phi.shape[1]))
     scratch = np.empty((11, min(len(phi), size), *phi.shape[1:]))
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore"):
         for start in range(0, len(phi), size):
             some = slice(start, start + size)
             angle, block = phi[some], out[:, some]
@@ -181,8 +182,8 @@ def _of_some(reading: Reading, some: slice) -> Reading:
 
 
 def _triangle(reading: Reading, phi: Reals, order: int, rows: Scratch) -> None:
-    """Rows t, t^2, 1 + t^2, and times 1 + t^2: n^2, R, (P - Q)/2; refuse where P Q is not positive."""
-    t, tt, one, n, r, z, q, *_ = rows
+    """Rows t, t^2, 1 + t^2, and times 1 + t^2: n^2, R, (P - Q)/2, then Q/P; refuse where P Q is not positive."""
+    t, tt, one, n, r, z, q, ratio, *_ = rows
     np.multiply(phi, 0.5, out=t)
     np.tan(t, out=t)
     np.multiply(t, t, out=tt)
@@ -194,6 +195,7 @@ def _triangle(reading: Reading, phi: Reals, order: int, rows: Scratch) -> None:
     if not r.min() > 0.0:
         _refuse(reading, phi, order, z, q, n)
     np.sqrt(r, out=r)
+    np.divide(q, z, out=ratio)
     np.subtract(z, q, out=z)
     np.multiply(z, 0.5, out=z)
 
@@ -218,35 +220,40 @@ def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Rea
 def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> None:
     """Coupler, rocker and transmission angle, continuous as in `loop.solve_loop`.
 
+    tan^2(gamma/2) = Q/P,   rocker = coupler + s gamma. R is at least 0, and D seen from B is never behind it, so that
+    the arc tangents of quotients are in their quadrants; a dead centre makes a quotient infinite, and its angle exact.
+
     Of many linkages all have a driving link that is longer than the frame, or none has, and are read the same way.
     """
-    t, tt, one, n, r, z, x, y, nu, *_ = rows
+    t, tt, one, n, r, _, x, y, nu, *_ = rows
+    coupler, rocker, gamma = out[:3]
     a, d, s = reading.a, reading.d, float(reading.s)
-    winding: Reals | float = 0.0
+    np.sqrt(y, out=y)
+    np.arctan(y, out=y)
+    np.multiply(y, 2.0, out=gamma)
     ahead, longer = (d > 0.0, a > abs(d)) if phi.ndim == 1 else (np.all(d > 0.0), np.all(a > abs(d)))
     if longer:
-        winding = phi - math.pi if ahead else phi
         _arg(2.0 * d, a - d, a + d, t, tt, x, nu)
+        np.add(nu, phi, out=nu)
     else:
         side = 1.0 if ahead else -1.0
         _arg(-2.0 * a * side, (d - a) * side, (d + a) * side, t, tt, x, nu)
     np.multiply(one, reading.e, out=x)
-    np.add(x, n, out=y)
-    np.arctan2(r, y, out=out[0])
-    np.subtract(x, n, out=y)
-    np.arctan2(r, y, out=out[1])
-    np.arctan2(r, z, out=out[2])
-    for i in (0, 1):
-        np.multiply(out[i], s, out=out[i])
-        np.add(out[i], nu, out=out[i])
-        np.add(out[i], winding, out=out[i])
+    np.add(x, n, out=x)
+    np.divide(x, r, out=x)
+    np.arctan(x, out=x)
+    # From B the coupler is s (pi/2 - x) off the direction of D; of the crank's own half revolution see `loop`.
+    np.subtract(s * (0.5 * math.pi) - (math.pi if longer and ahead else 0.0), np.multiply(x, s, out=x), out=x)
+    np.add(nu, x, out=coupler)
+    np.add(coupler, np.multiply(gamma, s, out=x), out=rocker)
 
 
 def _arg(sine: float, at_0: float, at_pi: float, t: Reals, tt: Reals, scratch: Reals, out: Reals) -> None:
-    """Angle of the vector (at_0 + at_pi t^2, sine t)."""
+    """Angle of the vector (at_0 + at_pi t^2, sine t), of which the first part is positive."""
     _linear(at_0, at_pi, tt, scratch)
     np.multiply(t, sine, out=out)
-    np.arctan2(out, scratch, out=out)
+    np.divide(out, scratch, out=out)
+    np.arctan(out, out=out)
 
 
 def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
