@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bench.families import FAMILIES, measured
+from bench.guard import keep
 from bench.page import as_markdown, curves, duration, write_pictures
 from bench.pictures import WAITS
 from bench.timing import Family, machine
@@ -309,22 +310,18 @@ def main() -> None:
         page = renewed((DOCS / "benchmarks.md").read_text(encoding="utf-8"), found, wanted, here)
         if peers is not None:
             page = re.sub(r"^## Peers.*?(?=^## )", lambda _: f"{peers}\n\n", page, flags=re.MULTILINE | re.DOTALL)
-        _write(page, json.loads((DOCS / "benchmarks.json").read_text(encoding="utf-8")), found)
+        _write(page, found)
         write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
         return
     pictures = write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
     parts = [_HEAD, goals_table(found, wanted), _REASONS, *([] if peers is None else [peers])]
     parts.append("## Machine\n\n" + as_markdown(list(found.values()), here, pictures))
-    _write("\n\n".join(part.strip() for part in parts) + "\n", {}, found)
+    _write("\n\n".join(part.strip() for part in parts) + "\n", found)
 
 
-def _write(page: str, record: dict[str, Any], found: dict[str, Family]) -> None:
-    record |= {
-        name: {f"{row.method}, {row.size}": float(f"{row.ratio:.4g}") for row in family.rows}
-        for name, family in found.items()
-    }
+def _write(page: str, found: dict[str, Family]) -> None:
     (DOCS / "benchmarks.md").write_text(page, encoding="utf-8")
-    (DOCS / "benchmarks.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    keep(found)
     print(f"wrote {DOCS / 'benchmarks.md'} and benchmarks.json", file=sys.stderr)
 
 

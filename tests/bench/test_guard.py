@@ -21,8 +21,11 @@ ROOT = Path(__file__).resolve().parents[2]
 def guard(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
     """The module, with a record of its own."""
     record = tmp_path / "benchmarks.json"
-    record.write_text(json.dumps({"press": {"chains, 1": 2.0, "scipy newton, 1": 1.0}}))
+    other, own = ("with AVX-512", "without AVX-512")
+    press = {"chains, 1": 2.0, "scipy newton, 1": 1.0}
+    record.write_text(json.dumps({other: {"press": {"chains, 1": 99.0}}, own: {"press": press}}))
     monkeypatch.setattr(bench.guard, "RECORD", record)
+    monkeypatch.setattr(bench.guard, "machine", lambda: {"AVX-512": "no"})
     monkeypatch.setattr(sys, "argv", ["guard", "press"])
     return bench.guard
 
@@ -57,7 +60,19 @@ def test_a_family_that_the_record_does_not_know_fails(
     assert "has nothing of press" in capsys.readouterr().out
 
 
-def test_the_record_has_every_family_that_is_guarded(guard: Any) -> None:
-    record = json.loads((ROOT / "docs" / "benchmarks.json").read_text())
+def test_a_record_is_renewed_for_processors_such_as_this_one(guard: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guard, "measured", _measured([3.0, 3.5]))
+    monkeypatch.setattr(sys, "argv", ["guard", "--record", "press"])
+    assert guard.main() == 0
+    assert guard.record()["press"]["chains, 1"] == 3.0
+    monkeypatch.setattr(sys, "argv", ["guard", "press"])
+    assert guard.main() == 0
+    monkeypatch.setattr(guard, "machine", lambda: {"AVX-512": "yes"})
+    assert guard.record() == {"press": {"chains, 1": 99.0}}
+
+
+@pytest.mark.parametrize("kind", ["with AVX-512", "without AVX-512"])
+def test_the_record_has_every_family_that_is_guarded(guard: Any, kind: str) -> None:
+    record = json.loads((ROOT / "docs" / "benchmarks.json").read_text())[kind]
     assert set(guard.FAMILIES) <= set(record)
     assert set(record) <= set(FAMILIES)
