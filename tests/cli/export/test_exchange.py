@@ -44,6 +44,8 @@ UNITS = {
         "sum_of_addendum_modification_coefficients": "none",
         "radial_contact_ratio": "none",
         "common_face_width": "mm",
+        "minimum_normal_backlash": "mm",
+        "maximum_normal_backlash": "mm",
         "application_factor_iso_6336_2006": "none",
         "mesh_load_factor_iso_6336_2006": "none",
         "dynamic_factor_iso_6336_2006": "none",
@@ -64,6 +66,12 @@ UNITS = {
         "normal_tooth_thickness_at_reference_diameter": "mm",
         "number_of_teeth_for_span_measurement": "none",
         "span_measurement": "mm",
+        "lower_backlash_allowance_referenced_to_span": "mum",
+        "upper_backlash_allowance_referenced_to_span": "mum",
+        "diameter_of_measuring_ball_or_pin": "mm",
+        "size_over_balls": "mm",
+        "lower_backlash_allowance_balls_or_pins": "mm",
+        "upper_backlash_allowance_balls_or_pins": "mm",
         "tolerance_class_according_to_iso_1328_2013": "none",
     },
     "cylindrical_gear_flank": {
@@ -72,10 +80,19 @@ UNITS = {
         "addendum_modification_coefficient": "none",
         "addendum_modification": "mm",
         "addendum_coefficient_basic_profile": "none",
+        "remaining_protuberance": "mm",
     },
     "rack_shaped_tool": {
         "normal_module": "mm",
         "normal_pressure_angle": "deg",
+        "addendum_coefficient_reference_profile": "none",
+        "tip_radius_factor": "none",
+    },
+    "cutter_wheel_tool": {
+        "number_of_teeth": "none",
+        "normal_module": "mm",
+        "normal_pressure_angle": "deg",
+        "addendum_modification_coefficient": "none",
         "addendum_coefficient_reference_profile": "none",
         "tip_radius_factor": "none",
     },
@@ -95,6 +112,8 @@ UNITS = {
     },
 }
 UNITS["ring_gear"] = UNITS["cylindrical_gear"]
+for _names in (UNITS["cylindrical_stage"], UNITS["cylindrical_stage_gear_data"]):
+    _names |= {name.replace("2006", "2019"): unit for name, unit in _names.items() if "2006" in name}
 """Attributes and units of the REXS 1.7 data model (schema of 2024-12-12), as far as gears use them."""
 ROLES = {
     "assembly": {"assembly", "part"},
@@ -165,6 +184,63 @@ def test_rexs_omits_the_rounding_of_a_sharp_tool() -> None:
     tools = [attributes[c] for c, element in components.items() if element.attrib["type"] == "rack_shaped_tool"]
     assert len(tools) == 2
     assert not any("tip_radius_factor" in tool for tool in tools)
+
+
+def _of(made: Any, kind: str) -> list[dict[str, str]]:
+    components, attributes = _model(as_rexs(made))
+    return [attributes[c] for c, element in components.items() if element.attrib["type"] == kind]
+
+
+def test_rexs_omits_what_lies_outside_of_the_ranges_of_the_data_model() -> None:
+    """Tip clearance is above 0 there and a load factor at least 1: a strict reader refuses the whole file."""
+    touching = design({**PAIR, "teeth": [59, 57], "profile_shift": [0.681, -0.264], "tip_shortening": "none",
+                       "addendum": 1.2, "clearance": 0.0})  # fmt: skip
+    assert min(touching.raw("tip_clearance")) < 0.0
+    assert not any("tip_clearance" in data for data in _of(touching, "cylindrical_stage_gear_data"))
+    rated = design("rated_pair", command="gear", load__factors__dynamic=0.9)
+    (stage,) = _of(rated, "cylindrical_stage")
+    assert "dynamic_factor_iso_6336_2006" not in stage
+    assert stage["application_factor_iso_6336_2006"] == "1.25"
+
+
+def test_rexs_names_the_edition_of_the_rating() -> None:
+    (stage,) = _of(design("rated_pair", command="gear", edition=2019), "cylindrical_stage")
+    assert {name for name in stage if "6336" in name} == {name for name in UNITS["cylindrical_stage"] if "2019" in name}
+
+
+def test_rexs_has_the_limits_of_the_teeth_and_their_backlash() -> None:
+    """Without them another program takes the nominal thickness and no backlash."""
+    made = design("rated_pair", command="gear")
+    (stage,), gears = _of(made, "cylindrical_stage"), _of(made, "cylindrical_gear")
+    assert (float(stage["minimum_normal_backlash"]), float(stage["maximum_normal_backlash"])) == made.raw(
+        "backlash_normal"
+    )
+    for i, gear in enumerate(gears):
+        for size, name, unit in (
+            ("span_measurement", "referenced_to_span", 1e-3),
+            ("size_over_balls", "balls_or_pins", 1.0),
+        ):
+            nominal = float(gear[size])
+            limits = [nominal + unit * float(gear[f"{end}_backlash_allowance_{name}"]) for end in ("lower", "upper")]
+            known = made.raw("span_measurement_limits" if unit < 1.0 else "measure_limits")[i]
+            assert limits == pytest.approx(known, rel=1e-14)
+        assert float(gear["diameter_of_measuring_ball_or_pin"]) == made.raw("pin_diameter")[i]
+
+
+def test_rexs_has_the_grade_of_a_pair_without_a_rating() -> None:
+    gears = _of(design("gear_pair", command="gear", accuracy_grade=7), "cylindrical_gear")
+    assert [gear["tolerance_class_according_to_iso_1328_2013"] for gear in gears] == ["7", "7"]
+
+
+def test_rexs_has_the_cutter_of_a_ring_and_the_protuberance_of_a_hob() -> None:
+    made = design("ring_pair", command="gear", tool=[{"rounding": 0.25, "residual_undercut": 0.02}, None])
+    assert _of(made, "cutter_wheel_tool") == [
+        {"number_of_teeth": "25", "normal_module": "2.0", "normal_pressure_angle": "20.0",
+         "addendum_modification_coefficient": "0.1", "addendum_coefficient_reference_profile": "1.25",
+         "tip_radius_factor": "0.25"}
+    ]  # fmt: skip
+    left = [flank.get("remaining_protuberance") for flank in _of(made, "cylindrical_gear_flank")]
+    assert left == ["0.04", "0.04", None, None]
 
 
 def test_an_idler_is_one_gear_of_two_stages(designs: Path) -> None:
