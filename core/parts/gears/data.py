@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
@@ -22,7 +22,7 @@ from gearlink.core.parts.gears.tooth.tools import RackTool
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.measures.allowances import Backlash
     from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
-    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
+    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference, ShapedRing
     from gearlink.core.parts.gears.rating.conditions import Conditions
     from gearlink.core.parts.gears.rating.rated import Rated
     from gearlink.core.parts.gears.rating.true_root import TrueRoot
@@ -223,9 +223,15 @@ class GearData:
 
     def cutting_tool(self, gear: int) -> RackTool:
         """The rack tool whose fillet the root of a gear has, or what stands for it in a ring."""
-        if gear == 1 and self.pair.shaped is not None:
-            return self.pair.shaped.substitute
+        if gear == 1 and self.cut_ring is not None:
+            return self.cut_ring.substitute
         return self.pair.tool(gear)
+
+    @cached_property
+    def cut_ring(self) -> ShapedRing | None:
+        """The ring as its cutter leaves it at the upper allowance, to whose thickness it goes deeper; None without."""
+        shaped = self.pair.shaped
+        return None if shaped is None else replace(shaped, shift=self.cut_shift[1])
 
     @cached_property
     def root(self) -> RootStress:
@@ -251,7 +257,7 @@ class GearData:
     @property
     def _ring_fillet(self) -> dict[str, Any]:
         """What the root of a shaped ring takes its fillet radius from."""
-        shaped = self.pair.shaped
+        shaped = self.cut_ring
         if shaped is None:
             return {}
         if self.conditions is not None and not self.conditions.generated_ring:

@@ -46,10 +46,10 @@ def shaped_root(data: GearData) -> str:
     section = data.root.sections[1] if data.pair.internal else None
     if section is None:
         return ""
-    if data.pair.shaped is None:
+    if data.cut_ring is None:
         return "without its cutter the root of the ring is that of a rack"
     norm = replace(section, given_fillet_radius=section.standard_fillet_radius)
-    own = data.pair.shaped.fillet_radius
+    own = data.cut_ring.fillet_radius
     if own is None:
         return ""
     made = replace(section, given_fillet_radius=own)

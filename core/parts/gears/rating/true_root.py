@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
@@ -99,7 +99,9 @@ class RootContour:
             tip_radius : float or None [mm] - of a gear whose tooth is cut down; None: its tip circle
         """
         try:
-            found = cls._ring(pair, rim) if pair.teeth[gear] < 0 else cls._gear(pair, gear, shift, rim, tip_radius)
+            found = (
+                cls._ring(pair, shift, rim) if pair.teeth[gear] < 0 else cls._gear(pair, gear, shift, rim, tip_radius)
+            )
         except NoSolution:
             return None
         return None if found is None or found.is_pointed else found
@@ -136,10 +138,10 @@ class RootContour:
         )
 
     @classmethod
-    def _ring(cls, pair: GearPair, rim: float | None) -> RootContour | None:
+    def _ring(cls, pair: GearPair, shift: float, rim: float | None) -> RootContour | None:
         if pair.shaped is None:
             return None
-        ring = pair.shaped.virtual
+        ring = replace(pair.shaped, shift=shift).virtual
         teeth = -float(ring.teeth)
         height = (pair.tip_radius[1] - pair.reference_radius[1]) / pair.module
         half = (math.pi / 2.0 + 2.0 * ring.shift * math.tan(pair.pressure_angle)) / teeth

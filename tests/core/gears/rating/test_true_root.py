@@ -239,6 +239,24 @@ def test_a_helical_ring_is_judged_on_its_virtual_gear() -> None:
     assert one.raw("root_fillet_radius")[1] > 0.25 * one.spec.module
 
 
+@pytest.mark.parametrize("helix", [0.0, 15.0])
+def test_a_ring_is_rated_as_it_is_cut_to_the_upper_allowance(helix: float) -> None:
+    """A cutter that goes deeper leaves the root of a ring of that shift: section, fillet and contour."""
+    keys: dict[str, Any] = {"teeth": [20, -71], "cutter": {"teeth": 25, "rounding": 0.2}, "helix_angle": helix}
+    upper = -0.2
+    shift = -0.1 + upper / (2.0 * 4.0 * math.tan(math.radians(20.0)))
+    thinner = made(**keys, profile_shift=[0.3, -0.1], allowances={"upper": [0.0, upper], "lower": [-0.1, -0.3]})
+    cut = made(**keys, profile_shift=[0.3, shift])
+    for quantity in ("root_fillet_radius", "root_chord"):
+        assert thinner.raw(quantity)[1] == pytest.approx(cut.raw(quantity)[1], rel=1e-12)
+    one, other = (RootContour.of(of.data.pair, 1, of.data.cut_shift[1], None) for of in (thinner, cut))
+    assert one is not None
+    assert other is not None
+    assert (one.root, one.form, one.at_base) == pytest.approx((other.root, other.form, other.at_base), rel=1e-12)
+    nominal = made(**keys, profile_shift=[0.3, -0.1])
+    assert thinner.raw("root_fillet_radius")[1] != pytest.approx(nominal.raw("root_fillet_radius")[1], rel=1e-3)
+
+
 def test_the_standard_s_reading_is_named_beside() -> None:
     one = made(**RINGS["56"])
     assert "ISO 6336-3:2007 with |z_n| gives 22.24 mm, root stress 17 % lower" in one.rests_on("root_fillet_radius")
