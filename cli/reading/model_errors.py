@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -13,9 +14,18 @@ from unicodedata import normalize
 
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
-from gearlink.cli.reading.model_shapes import allowed_range, fields_at, list_at, meaning_at, takes_truth_value, unit_at
+from gearlink.cli.reading.model_shapes import (
+    allowed_range,
+    fields_at,
+    list_at,
+    meaning_at,
+    members_at,
+    takes_truth_value,
+    unit_at,
+)
 from gearlink.cli.reading.yaml_reader import format_path, plain_value
 from gearlink.cli.reading.yaml_remedies import ODD, odd_character, odd_remedy
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
@@ -240,11 +250,40 @@ def diagnose(loaded: LoadedFile, model: type[BaseModel], error: ValidationError)
     """Every error of a validation as a diagnostic, and how many were left aside beyond the first few hundred."""
     raw = error.errors(include_url=False)
     findings = [_finding(dict(item), loaded.data) for item in raw[:_MOST_ERRORS]]
+    more = [other for finding in findings for other in _whatever_the_tag(finding, model, loaded.data)]
     wording = _Wording(loaded, model)
-    explained = wording.explained(findings)
-    told = [wording.diagnostic(group) for group in _without_other_members(findings)]
+    explained = wording.explained([*findings, *more])
+    told = [wording.diagnostic(group) for group in _without_other_members([*findings, *more])]
     told = [each for each in told if each.code != "GL106" or each.key not in explained]
     return told, len(raw) - len(findings)
+
+
+def _whatever_the_tag(finding: _Finding, model: type[BaseModel], data: Any) -> Iterator[_Finding]:
+    """What else is wrong with a section whose tag is wrong or missing: what is so whichever of its members is meant."""
+    from pydantic import ValidationError
+
+    if finding.kind not in ("union_tag_invalid", "union_tag_not_found") or not isinstance(finding.value, dict):
+        return
+    tag = finding.context["discriminator"].strip("'")
+    of_members: list[dict[KeyPath, list[_Finding]]] = []
+    for member, words in members_at(model, finding.path, data, tag):
+        section = {**finding.value, tag: words[0]}
+        found: dict[KeyPath, list[_Finding]] = {}
+        try:
+            member.model_validate_json(json.dumps(section))
+        except ValidationError as error:
+            for item in error.errors(include_url=False)[:_MOST_ERRORS]:
+                one = _finding(dict(item), section)
+                unions = tuple(((*finding.path, *place), name) for place, name in one.unions)
+                one = replace(one, path=(*finding.path, *one.path), unions=unions)
+                found.setdefault(one.path, []).append(one)
+        except NoSolution:
+            pass  # two keys that do not agree are known once the member is
+        of_members.append(found)
+    for path in of_members[0] if of_members else ():
+        if all(path in found for found in of_members):
+            of_path = [found[path] for found in of_members]
+            yield from min(of_path, key=lambda each: each[0].kind == "extra_forbidden")
 
 
 def diagnose_truth_values(loaded: LoadedFile, model: type[BaseModel], paths: Sequence[KeyPath]) -> Iterator[Diagnostic]:

@@ -47,6 +47,13 @@ def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, Fie
     }
 
 
+def members_at(model: type[BaseModel], path: KeyPath, data: Any, tag: str) -> Iterator[tuple[type[BaseModel], Any]]:
+    """The models that a section may have, each with the words of the key that tells them apart."""
+    for shape, _ in shapes_at(model, path, data)[0]:
+        if _is_model(shape) and tag in shape.model_fields:
+            yield shape, get_args(shape.model_fields[tag].annotation)
+
+
 def aliases_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, str]:
     """The standard terms that a section takes instead of the names of its keys, each with the name."""
     found = {}

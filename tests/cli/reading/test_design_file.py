@@ -385,6 +385,21 @@ def test_each_error_in_our_own_words(text: str, code: str, key: str, message: st
     assert found.line == 2
 
 
+def test_a_wrong_type_hides_nothing_else_of_its_section() -> None:
+    """What is wrong whichever type is meant; a key that one of them takes, and what one of them lacks, may be right."""
+    for named in ("type: springy, ", ""):
+        found = wrong(f"{HEAD}unloader: {{{named}bogus: 1, ratio: 0.5, stretch: [], extension: 2}}\n")
+        first = "GL108" if named else "GL106"
+        assert {(each.code, each.key) for each in found} == {
+            (first, "unloader.type"),
+            ("GL105", "unloader.bogus"),
+            ("GL108", "unloader.ratio"),
+            ("GL107", "unloader.stretch"),
+        }
+    (alone,) = wrong(f"{HEAD}unloader: {{type: springy, ratio: 2, stretch: 1}}\n")
+    assert alone.key == "unloader.type"
+
+
 @pytest.mark.parametrize(
     ("text", "column", "help"),
     [
