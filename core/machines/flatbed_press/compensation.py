@@ -38,8 +38,6 @@ def transition_too_early(follower: Compensation) -> NoSolution:
         f"{short(end)} deg"
     )
     fix = f"set cam.transition_end above {safely_above(end)} deg, the farther the flatter the cam"
-    if end >= 360.0:
-        fix = "shorten the zone"
     return turns_back(follower) or NoSolution(text, key="cam.transition_end", fix=fix)
 
 
@@ -62,8 +60,13 @@ def return_too_late(follower: Compensation) -> NoSolution:
 
 
 def turns_back(follower: Compensation) -> NoSolution | None:
-    """The bed turns back within the zone, so that the zone is to end before; None where it does not."""
+    """The bed turns back within the zone, so that the zone is to end before; None where it does not.
+
+    A zone that ends where the bed turns back at the end of the turn leaves no transition before it.
+    """
     turning = turning_within(follower.bed, follower.sync_start, follower.sync_end)
+    if turning is None and follower.cam_sync_end >= _TURN:
+        turning = _TURN
     if turning is None:
         return None
     key, unit = ("sync.end", "deg") if follower.end_given else ("sync.length", "mm")

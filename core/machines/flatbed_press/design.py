@@ -159,7 +159,9 @@ def _turning_back(design: FlatbedPress) -> Iterator[Check]:
     turning = motion.bed_turns_back
     if turning is not None:
         at, end = (math.degrees(angle) for angle in (turning, motion.sync_end))
-        what, aside, fix = "input angle at which the bed reverses", "end of the zone", "reduce sync.length"
+        what, aside = "input angle at which the bed reverses", "end of the zone"
+        key = "sync.length" if design.spec.sync.end is None else "sync.end"
+        fix = f"set {key} to at most {_zone_before(design, turning)}"
         yield SYNC_LENGTH.check("fail", what, at, end, "deg", aside=aside, fix=fix)
 
 
@@ -221,6 +223,8 @@ _ROUNDS = 20
 """So often a rod is found from its crank, which grows less than the rod does."""
 _BEHIND = (15.0, 25.0, 40.0, 60.0)
 """Cam angles behind the end of the zone at which the lift may be maximum [deg]."""
+_OF_ROOM = (0.25, 0.5, 0.75, 1.0)
+"""Shares of the cam angle between transition and next sheet that the return may take."""
 _LINKS = tuple(
     f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler", "crank", "rocker")
 )
@@ -283,6 +287,8 @@ def _rod(design: FlatbedPress) -> Iterator[Remedy]:
 def _length(design: FlatbedPress) -> Iterator[Remedy]:
     """A zone as long as the print, by its length or its end; last a print that fits into zone and circumference."""
     sync, motion = design.spec.sync, design.motion
+    if sync.start is not None:
+        yield (("sync.start", None),)
     if motion.bed_turns_back is not None:
         yield _before_turning(design, motion.bed_turns_back)
     if sync.end is None:
@@ -292,6 +298,15 @@ def _length(design: FlatbedPress) -> Iterator[Remedy]:
         yield (("sync.end", at_least(end, 0.5)),)
         yield ("sync.length", sync.print_length), ("sync.end", None)
     yield (("sync.print_length", at_most(min(motion.zone_length, math.tau * design.spec.cylinder.radius))),)
+
+
+def _zone_before(design: FlatbedPress, turning: float) -> str:
+    """The length of the zone, or its end, with which it ends where the bed turns back [rad]."""
+    motion = design.motion
+    if design.spec.sync.end is not None:
+        return f"{safely_below(math.degrees(turning))} deg"
+    travel = motion.cylinder.travel
+    return f"{safely_below(float(travel(turning).value - travel(motion.sync_start).value))} mm"
 
 
 def _before_turning(design: FlatbedPress, turning: float) -> Remedy:
@@ -317,6 +332,22 @@ def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
         except NoSolution:
             radius = cams.base_radius_for_pressure(math.radians(limit))
         yield (("cam.base_radius", at_least(radius)),)
+        yield from _longer_return(design)
+
+
+def _longer_return(design: FlatbedPress) -> Iterator[Remedy]:
+    """A return over more of the cam angle that is left for it, with the base radius that its cams then need."""
+    limit, given = math.radians(design.spec.limits.pressure_angle), design.cams.section.base_radius
+    follower = design.cams.follower
+    most = math.degrees(follower.cam_sync_start - follower.lead_in + math.tau - follower.transition_end)
+    for share in _OF_ROOM:
+        longer: Remedy = (("cam.return_angle", at_most(share * most, 0.5)),)
+        spec = changed(design.spec, longer)
+        if given is None or spec is None or share * most <= design.cams.section.return_angle:
+            continue
+        with suppress(NoSolution):
+            radius = at_least(type(design)(spec).cams.base_radius_for(limit))
+            yield longer if radius <= given else (*longer, ("cam.base_radius", radius))
 
 
 def _without_turning(design: FlatbedPress) -> Iterator[Remedy]:
@@ -378,8 +409,17 @@ def _smooth(design: FlatbedPress) -> Iterator[Remedy]:
         yield (*better, ("cam.lead_in", _LEAD_IN))
 
 
+def _refused(design: FlatbedPress) -> Iterator[Remedy]:
+    """A law of the return that every command takes, and what lets the cams be."""
+    yield (("cam.return_law", "cycloidal"),)
+    if design.spec.sync.start is not None:
+        yield (("sync.start", None),)
+    if design.spec.cam is not None:
+        yield from _pressure(design)
+
+
 _CLOSED: dict[str, Callable[[FlatbedPress], Iterator[Remedy]]] = {
-    REFUSAL: lambda _: iter(((("cam.return_law", "cycloidal"),),)),
+    REFUSAL: _refused,
     "transmission-angle": _rod,
     "sync-length": _length,
     "pressure-angle": _pressure,
