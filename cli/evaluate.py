@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
@@ -66,8 +67,9 @@ def build(
         "key_tables": key_tables,
     }
     try:
-        with refusals_located(loaded):
-            design = kind.design(command, spec) if designs is None else designs.of(command)
+        made = partial(kind.design, command, spec) if designs is None else partial(designs.of, command)
+        with refusals_located(loaded, None if kind is STUDY else made, command):
+            design = made()
             if options.format is Format.JSON and not (only or options.quantities or findings_only):
                 wanted["tables"] = (*options.tables, *design.tables_of_data(command))
             report = design.report(command, **wanted)  # type: ignore[arg-type]
@@ -115,20 +117,32 @@ def wrong_kind(loaded: LoadedFile, message: str) -> DesignFileError:
 
 
 @contextmanager
-def refusals_located(loaded: LoadedFile) -> Iterator[None]:
+def refusals_located(loaded: LoadedFile, made: Callable[[], Design] | None = None, command: str = "") -> Iterator[None]:
     """What a mechanism or a study refuses becomes an error at its place in the file.
 
+    Parameters
+        made : gives the design that is refused, on which a fix is tried for the command
     Raises
         DesignFileError - instead of NoSolution and WrongStudy
     """
     try:
         yield
     except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+        told = error if made is None else _with_fix(made, command, error)
+        raise DesignFileError([diagnose_no_solution(loaded, told)]) from error
     except _wrong_study() as error:  # its class is looked up where something is raised, not before
         from gearlink.cli.reading.base_design import located
 
         raise DesignFileError(located(loaded, error.faults)) from error
+
+
+def _with_fix(made: Callable[[], Design], command: str, error: NoSolution) -> NoSolution:
+    """The refusal with a fix that was tried; as it is where there is no design to try one on."""
+    from gearlink.core.base.remedies.trials import with_fix
+
+    with suppress(NoSolution):
+        return with_fix(made(), command, error)
+    return error
 
 
 def _wrong_study() -> type[WrongStudy]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import repeat
 from time import perf_counter
 from typing import Any
@@ -23,6 +24,7 @@ from gearlink.cli.render.json_report import FORMAT, plain_check
 from gearlink.cli.texts.codes import key_of
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.kind import FileDesigns, Kind
+from gearlink.core.base.kinds import STUDY
 from gearlink.core.base.report import Check
 from gearlink.core.base.wording import amount
 
@@ -137,7 +139,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
     for command in spec.commands():
         cls = kind.class_for(command, spec)
         try:
-            with refusals_located(loaded):
+            with refusals_located(loaded, None if kind is STUDY else partial(designs.of, command), command):
                 kept.append(design := designs.of(command))
                 outline = Outline() if design.checks_need_search else design.outline(command)
                 names = [name for name in outline.checks if (cls, name) not in done]

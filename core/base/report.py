@@ -160,7 +160,7 @@ class Check(NamedTuple):
     def fix(self) -> str | None:
         """The one change that repairs the finding: a tested one, else general advice; None where there is none."""
         if self.remedy:
-            return remedy_words(self.remedy) + (" (relaxes the requirement)" if self.relaxes else "")
+            return fix_words(self.remedy, relaxes=self.relaxes)
         return self.advice or None
 
     @property
@@ -435,6 +435,11 @@ def remedy_words(remedy: Remedy) -> str:
     sets = [f"{key} to {_shown(value)}" for key, value in remedy if value is not None]
     verbs = [f"set {' and '.join(sets)}"] if sets else []
     return " and ".join((*verbs, *(f"remove {key}" for key, value in remedy if value is None)))
+
+
+def fix_words(remedy: Remedy, *, relaxes: bool) -> str:
+    """A remedy as a fix, which says where it asks less of the machine."""
+    return remedy_words(remedy) + (" (relaxes the requirement)" if relaxes else "")
 
 
 def _shown(value: float | str | tuple[float, ...]) -> str:

@@ -14,7 +14,7 @@ from contextlib import suppress
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
-from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.errors import MissingSection, NoSolution, anew
 from gearlink.core.base.remedies.ways import (
     FAILS,
     HOLDS,
@@ -26,12 +26,14 @@ from gearlink.core.base.remedies.ways import (
     counts,
     greatest_length,
     left_of,
+    other_ways,
     own_grade,
+    printed,
     refusal_ways,
     steps_to_limit,
     warned,
 )
-from gearlink.core.base.report import Check, Remedy
+from gearlink.core.base.report import Check, Remedy, fix_words
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed, number_at
 
@@ -54,6 +56,29 @@ def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> 
         return findings  # what warns may be built: no report waits for its trials
     bench = design.bench(command)
     return tuple(_with(design, bench, found, index) for index, found in enumerate(findings))
+
+
+def with_fix(design: Design, command: str, error: NoSolution) -> NoSolution:
+    """A refusal with a fix that was tried: that which it tells, or another with which nothing fails, or that leads to a
+    design that is not refused; as it was where none was found.
+
+    Notes
+        What misses in a file is to be given, and the refusal says what.
+    """
+    if isinstance(error, MissingSection):
+        return error
+    bench, told = design.bench(command), printed(error.fix)
+    leads = bool(told) and bench.leads(told)
+    if leads and bench.holds(told):
+        return error
+    remedy = next(filter(bench.leads, bench.of_refusal(error)), ())
+    if leads and not (remedy and bench.holds(remedy)):
+        return error
+    if not remedy:
+        return error
+    again = anew(error)
+    again.fix = fix_words(remedy, relaxes=design.asks_less(key for key, _ in remedy))
+    return again
 
 
 def _is_sought(design: Design, found: Check) -> bool:
@@ -122,7 +147,22 @@ class Bench:
                     break
                 if self._grade_elsewhere(remedy) >= wanted:
                     return next(self._farther(remedy, found.name, good), remedy)
-        return ()
+        return next(self._beside(found, index), ()) if found.status == "fail" else ()
+
+    def _beside(self, found: Check, index: int) -> Iterator[Remedy]:
+        """Remedies by numbers of the file that the kind names no way of, where its own ways lead nowhere."""
+        self._begin()
+        named = {way.keys for way in self._design.ways_of(found.name)}
+        ways = (way for way in other_ways(self._design.given, "") if way.keys not in named)
+        ways = (way for way in ways if not self._design.asks_less(way.keys))
+
+        def good(tried: Remedy) -> bool:
+            return self._grade(tried, found.name, index) >= HOLDS
+
+        for way, first in self._led(ways, good, found.name, index):
+            for remedy in islice(self._along(way, good, first), 1):
+                if self._is_affordable_elsewhere(remedy) and self._grade_elsewhere(remedy) >= HOLDS:
+                    yield remedy
 
     def _of_earlier(self, name: str) -> Iterator[Remedy]:
         """The closed forms of what fails before a check: where one of them repairs both, both name it.
@@ -144,7 +184,7 @@ class Bench:
         for remedy in remedies:
             if not self._is_paid(remedy, -BUDGET):
                 return
-            if not self._design.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
+            if not self._design.asks_less(key for key, _ in remedy) and good(remedy) and self.holds(remedy):
                 yield remedy
 
     def _farther(self, remedy: Remedy, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
@@ -226,12 +266,21 @@ class Bench:
 
     def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
         """Remedies of a design that is refused: nothing of what its file asks for is refused then, and first those with
-        which nothing of it fails."""
-        ways = tuple(refusal_ways(self._design.given, error.key))
-        for good in (self._holds, self._stands):
-            self._begin()
-            yield from (remedy for remedy in self._closed(REFUSAL) if good(remedy))
-            yield from (remedy for way in ways for remedy in islice(self._along(way, good), 1))
+        which nothing of it fails; numbers beside the one that the refusal names come last."""
+        given = self._design.given
+        own, beside = tuple(refusal_ways(given, error.key)), tuple(other_ways(given, error.key))
+        for ways in (own, tuple(way for way in beside if not self._design.asks_less(way.keys))):
+            for good in (self.holds, self._stands):
+                self._begin()
+                if ways is own:
+                    yield from (remedy for remedy in self._closed(REFUSAL) if good(remedy))
+                for less in (False, True):
+                    some = (way for way in ways if self._design.asks_less(way.keys) is less)
+                    yield from (remedy for way in some for remedy in islice(self._along(way, good), 1))
+
+    def leads(self, remedy: Remedy) -> bool:
+        """Whether nothing that the file asks for is refused after a change, nor worse elsewhere."""
+        return self._stands(remedy) and self._is_affordable_elsewhere(remedy) and self._grade_elsewhere(remedy) >= HOLDS
 
     def _all(self, name: str, good: Callable[[Remedy], bool], index: int) -> Iterator[Remedy]:
         """The remedies of a finding that are good, the best first."""
@@ -341,7 +390,8 @@ class Bench:
         trial = self._trial(remedy)
         return trial is not None and all(map(trial.stands, self._commands))
 
-    def _holds(self, remedy: Remedy) -> bool:
+    def holds(self, remedy: Remedy) -> bool:
+        """Whether nothing of the commands is refused or fails after a change."""
         trial = self._trial(remedy)
         return trial is not None and all(trial.holds(command) for command in self._commands)
 

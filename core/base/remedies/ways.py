@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
@@ -182,6 +185,60 @@ def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
         yield left_out(key)
     for path in numbers_at(spec, key):
         yield from either(path, step=step_of(spec, path))
+
+
+def other_ways(spec: Any, key: str) -> Iterator[Way]:
+    """Ways to change the numbers beside a key, those of its own section first; nothing of the file's other tasks."""
+    sections = [key[: dot.start()] for dot in reversed(list(re.finditer(r"[.\[]", key)))]
+    top = (field.alias or name for name, field in type(spec).model_fields.items())
+    paths = chain.from_iterable(numbers_at(spec, each) for each in (*sections, *(t for t in top if t not in _TASKS)))
+    own = set(numbers_at(spec, key)) if key else ()
+    for path in dict.fromkeys(paths):
+        if path not in own:
+            yield from either(path, step=step_of(spec, path))
+
+
+_TASKS = ("limits", "tolerance", "register", "loads")
+"""Sections that say how a machine is judged, and what else is computed of it."""
+_KEY = r"[a-z]\w*(?:\[\d+\])*(?:\.[a-z]\w*(?:\[\d+\])*)*"
+_VALUE = r"\[[^\]]*\]|-?\d[\d.]*(?:e[-+]?\d+)?|[a-z][a-z\d-]*(?![\w-])"
+_SET = re.compile(rf"({_KEY}) (?:to at most|to at least|to|below|above|from) ({_VALUE})")
+_REMOVED = re.compile(rf" and remove ({_KEY})")
+
+
+def printed(fix: str) -> Remedy:
+    """The change that a fix tells, as one makes it who follows its first words; empty where it names no value.
+
+    Example
+        >>> printed("set stroke below 988.7 mm, lengthen the rod or reduce the offset")
+        (('stroke', 988.7),)
+        >>> printed("set teeth[0] to 42 and pivots.input to [1, -2.5] and remove sync.end")
+        (('teeth[0]', 42), ('pivots.input', (1, -2.5)), ('sync.end', None))
+        >>> printed("set the centre distance to at least 40 mm"), printed("shorten the rod")
+        ((), ())
+    """
+    found: list[tuple[str, float | str | tuple[float, ...] | None]] = []
+    text, start = fix, "set "
+    while text.startswith(start) and (match := _SET.match(text, len(start))):
+        found.append((match[1], _read(match[2])))
+        text, start = text[match.end() :], " and "
+    if not found:
+        text, start = " and " + fix, ""
+    while match := _REMOVED.match(text):
+        found.append((match[1], None))
+        text = text[match.end() :]
+    return tuple(found)
+
+
+def _read(text: str) -> float | str | tuple[float, ...]:
+    return tuple(value) if isinstance(value := _number(text), list) else value
+
+
+def _number(text: str) -> Any:
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
 
 
 def counts(most: int, first: int = 1) -> Iterator[int]:

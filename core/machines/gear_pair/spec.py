@@ -95,7 +95,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             raise refused("a pinion cutter applies only to a ring (negative teeth)\nomit it, or give tool", "cutter")
         if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
             message = f"a cutter of {self.cutter.teeth} teeth does not fit into a ring of {-second}"
-            raise refused(f"{message}\nset cutter.teeth below {-second}", "cutter.teeth")
+            raise refused(f"{message}\nset cutter.teeth to at most {-second - 1}", "cutter.teeth")
         self._fits_its_system(internal)
         if self.helix_hand is None:
             return self
@@ -154,5 +154,5 @@ def require_teeth(teeth: list[Any]) -> None:
                 help_ = "allowed: from 1 to 10000, from -10000 to -1, rack"
             raise refused(f"{message}\n{help_}", key, "GL108")
     if second != "rack" and second < 0 and -second <= first:
-        message = f"a gear of {first} teeth does not fit into a ring of {-second}\nset teeth[1] below -{first}"
+        message = f"a gear of {first} teeth does not fit into a ring of {-second}\nset teeth[1] to at most -{first + 1}"
         raise refused(message, "teeth[1]")

@@ -151,7 +151,7 @@ def _least_crank(excess: Callable[[float], float], limit: float, swing: float) -
     if (over := excess(crank)) >= 0.0:
         raise NoSolution(
             f"swing: {short(math.degrees(swing))} deg, too small to be computed",
-            fix=f"set swing to at least {safely_above(math.degrees(over + swing), 3)} deg",
+            fix=f"set target.swing to at least {safely_above(math.degrees(over + swing), 3)} deg",
         )
     return crank
 

@@ -46,7 +46,7 @@ class PlanetGears(TrainKeys):
         only_one(self, "sun", "ring", needed="give sun or ring, the output gear on A")
         if self.ring is not None and self.ring <= self.planet:
             message = f"a planet of {self.planet} teeth does not fit into a ring gear of {self.ring}"
-            raise refused(f"{message}\nset gears.ring above {self.planet}", "ring")
+            raise refused(f"{message}\nset gears.ring to at least {self.planet + 1}", "ring")
         require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)
         return self
 

@@ -58,7 +58,7 @@ class Gears(TrainKeys):
         for key, teeth in (("crank", self.crank), ("output", self.output)):
             if teeth < 0 and self.idler is not None and -teeth <= self.idler:
                 message = f"an idler of {self.idler} teeth does not fit into a ring gear of {-teeth}"
-                raise refused(f"{message}\nset gears.{key} below -{self.idler}", key)
+                raise refused(f"{message}\nset gears.{key} to at most -{self.idler + 1}", key)
         if self.i3 is not None and min(self.crank, self.output) < 0:
             message = "i3 applies only to external gears\ngive idler instead of i3"
             raise refused(message, "i3")
@@ -71,8 +71,8 @@ class Gears(TrainKeys):
         only_one(self, "i3", "idler", at="i3")
         if self.i3 is not None and self.crank != self.output:
             message = (
-                f"i3 applies only to equal crank and output teeth\nset output to {self.crank}, or give idler instead "
-                "of i3"
+                f"i3 applies only to equal crank and output teeth\nset gears.output to {self.crank}, or give idler "
+                "instead of i3"
             )
             raise refused(message, "output")
         return self

@@ -209,7 +209,7 @@ class FamilyTask(Task):
                 f"this synthesis applies to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
                 "teeth must be equal",
                 key="gears.output",
-                fix=f"set output to {gears.crank}, or give {self.section}.crank, frame or balanced as well",
+                fix=f"set gears.output to {gears.crank}, or give {self.section}.crank, frame or balanced as well",
             )
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:

@@ -110,7 +110,7 @@ class Train:
         given = self.keys.cutter
         if given.teeth >= ring:
             message = f"a cutter of {given.teeth} teeth does not fit into a ring of {ring}"
-            raise NoSolution(message, key="cutter.teeth", fix=f"set cutter.teeth below {ring}")
+            raise NoSolution(message, key="cutter.teeth", fix=f"set cutter.teeth to at most {ring - 1}")
         return PinionCutter(**given.model_dump())
 
     def data(self, place: Place, pair: GearPair, rim: float | None = None) -> GearData:

@@ -1,0 +1,104 @@
+"""The fix of a refusal that names a value: put into the data of the file as printed, the design is not refused.
+
+No tolerances: a value is a number of the file as it is printed. The second way: the words of the fix are read by the
+patterns below, not by the program's own.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import factory
+import pytest
+
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.remedies.trials import with_fix
+from gearlink.core.base.remedies.ways import printed
+
+_SET = re.compile(r"(?:set|and) ([\w.\[\]]+) (?:to at most|to at least|to|above|below|from) (-?[\d.]+(?:e[-+]?\d+)?)")
+_REMOVED = re.compile(r"remove ([\w.]+)")
+
+
+def asked(base: str | dict[str, Any], **keys: Any) -> FileDesigns:
+    """The designs of a file's data."""
+    data = factory.changed(factory.worked(base) if isinstance(base, str) else base, **keys)
+    kind = KINDS[data["kind"]]
+    return FileDesigns(kind, kind.spec_model().model_validate(data))
+
+
+def refusal(command: str, base: str | dict[str, Any], **keys: Any) -> NoSolution:
+    made = asked(base, **keys).of(command)
+    with pytest.raises(NoSolution) as caught:
+        made.report(command)
+    return with_fix(made, command, caught.value)
+
+
+def told(fix: str) -> dict[str, Any]:
+    changes: dict[str, Any] = {key: float(value) for key, value in _SET.findall(fix)}
+    changes = {key: int(value) if value == int(value) else value for key, value in changes.items()}
+    changes |= dict.fromkeys(_REMOVED.findall(fix))
+    return {key.replace(".", "__"): value for key, value in changes.items()}
+
+
+@pytest.mark.parametrize(
+    ("command", "base", "keys"),
+    [
+        ("analyze", "drawn_feed", {"links__frame": 20}),
+        ("analyze", "crank_rocker_links", {"links__frame": 49.61}),
+        ("gear", "drawn_ring", {"gears__ring": 100}),
+        ("cam", "ty460", {"sync__start": 300}),
+        ("cam", "ty460", {"sync__length": 700}),
+        ("cam", "ty460", {"cam__transition_end": 96}),
+        ("cam", "ty460", {"cam__return_angle": 300}),
+        ("cam", "ty460", {"cam__lead_in": 350}),
+        ("synth dwell", "candy_feed", {"gears__crank": 60}),
+    ],
+)
+def test_the_fix_of_a_refusal_lets_the_design_be(command: str, base: str, keys: dict[str, Any]) -> None:
+    """They named no value, a key of a section without it, or a value with which the next refusal came."""
+    error = refusal(command, base, **keys)
+    changes = told(error.fix)
+    assert changes, error.fix
+    report = asked(base, **(keys | changes)).of(command).report(command)
+    assert report.checks
+
+
+def test_what_misses_in_a_file_is_said_as_before() -> None:
+    made = asked({"kind": "slider-crank", "stroke": 310, "rod": 520}).of("crank")
+    error = MissingSection("`loads` needs the section loads", key="loads")
+    assert with_fix(made, "crank", error) is error
+
+
+@pytest.mark.parametrize("fix", ["shorten the rod", "set the centre distance to at least 40 mm", "", "omit it"])
+def test_words_without_key_and_value_are_no_change(fix: str) -> None:
+    assert not printed(fix)
+
+
+def test_the_words_of_a_fix_are_read_as_a_user_would() -> None:
+    assert printed("set a to 1 and b[0] to 2.5 and remove c.d") == (("a", 1), ("b[0]", 2.5), ("c.d", None))
+    assert printed("set cam.return_law to modified-sine") == (("cam.return_law", "modified-sine"),)
+    assert printed("set arm to at most 1e-3 mm, or omit it") == (("arm", 1e-3),)
+    assert printed("remove a and remove b.c") == (("a", None), ("b.c", None))
+
+
+@pytest.mark.parametrize(
+    ("name", "keys"),
+    [
+        ("pressure-angle", {"cam__return_angle": 0.01}),
+        ("pressure-angle", {"sync__start": 200}),
+        ("sync-length", {"sync__start": 300}),
+        ("sync-length", {"sync__length": 700}),
+    ],
+)
+def test_a_press_whose_cam_jams_or_whose_bed_reverses_names_a_value(name: str, keys: dict[str, Any]) -> None:
+    """They told to allow a larger pressure angle, and to reduce the zone."""
+    failing = [each for each in asked("ty460", **keys).of("press").findings("press", name) if each.status == "fail"]
+    failing += [each for each in asked("ty460", **keys).of("cam").findings("cam", name) if each.status == "fail"]
+    assert failing
+    for check in failing:
+        after = asked("ty460", **(keys | told(str(check.fix))))
+        assert all(each.status != "fail" for each in after.of("cam").findings("cam", name)), check.fix
+        assert all(each.status != "fail" for each in after.of("press").findings("press", name)), check.fix
