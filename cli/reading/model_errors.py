@@ -441,6 +441,8 @@ class _Wording:
         path = finding.path + below
         text, _, help = finding.text.partition("\n")
         help = str(finding.context.get("help", help))
+        if finding.path and below and re.match(rf"set {re.escape(format_path(below))}(?![\w])", help):
+            help = f"set {format_path(finding.path)}.{help.removeprefix('set ')}"
         return self.loaded.report(finding.kind, text, path, help=help, of_several=True)
 
     def _missing(self, finding: _Finding) -> Diagnostic:

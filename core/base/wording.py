@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Sequence
+from itertools import pairwise
 
 
 def amount(count: float, one: str, many: str = "", spec: str = "") -> str:
@@ -139,6 +140,38 @@ def within(low: float, high: float, unit: str) -> str:
         if ends[0] < ends[1]:
             return f"{plain(ends[0])} to {in_unit(plain(ends[1]), unit)}"
     return f"{low!r} to {in_unit(repr(high), unit)}"
+
+
+def ascending(values: Sequence[float], path: str, first: float | None = None, last: float | None = None) -> str:
+    """The one value with which numbers ascend, in the widest steps, as a fix; empty where one is not enough.
+
+    Parameters
+        path : str - of a number, with its place in the list: "motion[{}].to"
+        first, last : float - what all are above, and what the last one must be; None: nothing
+    Example
+        >>> ascending([90.0, 180.0, 150.0], "at[{}]"), ascending([90.0, 60.0, 30.0], "at[{}]")
+        ('set at[1] to 120', '')
+        >>> ascending([90.0, 400.0, 200.0, 360.0], "motion[{}].to", 0.0, 360.0)
+        'set motion[1].to to 145'
+    """
+    found: list[tuple[float, int, float]] = []
+    for i in range(len(values)):
+        low = values[i - 1] if i else first
+        high = last if i == len(values) - 1 else values[i + 1]
+        if last is not None and i == len(values) - 1:
+            value = last
+        elif low is None or high is None:
+            value = (low or 0.0) + 1.0 if high is None else high - 1.0
+        else:
+            value = 0.5 * (low + high)
+        whole = [*([] if first is None else [first]), *values[:i], value, *values[i + 1 :]]
+        steps = [after - before for before, after in pairwise(whole)]
+        if min(steps) > 0.0 and last in (None, whole[-1]):
+            found.append((min(steps), i, value))
+    if not found:
+        return ""
+    _, i, value = max(found)
+    return f"set {path.format(i)} to {value:.9g}"
 
 
 def in_unit(number: str, unit: str) -> str:

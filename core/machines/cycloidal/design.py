@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.remedies.ways import either
-from gearlink.core.base.report import Check, Shown, Status, Table
+from gearlink.core.base.report import Check, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, within
 from gearlink.core.parts.gears.codes import DISC_INTERFERENCE, PITTING, SHORTENING, UNDERCUT
@@ -356,14 +356,15 @@ class CycloidalReducer(RealSpeed, Design):
         radius, least = self.spec.pin_radius, self.min_curvature_radius
         share = radius / least
         status: Status = "fail" if share >= 1.0 else "warn" if share > _NEAR else "pass"
-        what, fix = "pin radius against the minimum convex radius of the pitch curve", "use thinner pins"
-        most = _NEAR * least
+        what, most = "pin radius against the minimum convex radius of the pitch curve", _NEAR * least
+        fix = f"set pin_radius to at most {safely_below(most)} mm"
         return UNDERCUT.check(status, what, radius, least, "mm", side="<=", recommended=most, fix=fix)
 
     def check_gear_collision(self) -> Check:
         """GL301: ring pins beside each other."""
         gap = 2.0 * (self.spec.pin_circle_radius * math.sin(math.pi / self.spec.pins) - self.spec.pin_radius)
-        what, overlap, fix = "gap between two ring pins", "overlap of two ring pins", "use a larger pin circle"
+        what, overlap = "gap between two ring pins", "overlap of two ring pins"
+        fix = f"set pin_radius below {safely_below(self.spec.pin_radius + 0.5 * gap)} mm"
         status: Status = "fail" if gap <= 0.0 else "pass"
         return GEAR_COLLISION.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
@@ -385,9 +386,11 @@ class CycloidalReducer(RealSpeed, Design):
                     pins.circle_radius - hole - self.spec.bearing_radius,
                 )
             )
-        for where, web in webs:
+        for i, (where, web) in enumerate(webs):
             status: Status = "fail" if web <= 0.0 else "pass"
-            overlap, fix = f"overlap {where}", "reduce the radius of the output pins"
+            most = pins.radius + (1.0 if i else 0.5) * web  # both holes shrink
+            fix = f"set output_pins.radius below {safely_below(most)} mm" if most > 0.0 else "use thinner output pins"
+            overlap = f"overlap {where}"
             yield SHAFT_CLEARANCE.check(status, f"web {where}", web, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_interference(self) -> Iterator[Check]:
@@ -396,7 +399,7 @@ class CycloidalReducer(RealSpeed, Design):
             return
         gap = self.tightest.value
         what, overlap = "minimum gap between disc and pins", "interference of disc and pins"
-        fix = "increase modification.offset"
+        fix = f"set modification.offset to at least {safely_above(self.changes[0] - gap)} mm"
         status: Status = "fail" if gap < 0.0 else "pass"
         yield DISC_INTERFERENCE.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
@@ -419,5 +422,7 @@ class CycloidalReducer(RealSpeed, Design):
             return
         safety, limit = bears / stress, self.spec.limits.safety_pitting
         status: Status = "fail" if safety < limit else "pass"
-        aside, fix = f"contact stress {short(stress)} N/mm^2", "increase width"
+        aside = f"contact stress {short(stress)} N/mm^2"
+        assert self.spec.width is not None  # where there is a stress
+        fix = f"set width to at least {safely_above(self.spec.width * (limit / safety) ** 2)} mm"
         yield PITTING.check(status, "pitting safety S_H", safety, limit, aside=aside, fix=fix)

@@ -11,7 +11,7 @@ import numpy as np
 from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.many_designs import Unlike, column, hand_out, sought, together
-from gearlink.core.base.remedies.ways import Way, down, either, thinner, up
+from gearlink.core.base.remedies.ways import Way, down, either, left_out, thinner, up
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
@@ -149,6 +149,7 @@ class DiscCamDesign(OfFollower, Design):
         "lift-off": (up("spring.preload", step=1.0), up("spring.least_force", step=1.0), up("spring.rate")),
         "outer-wall": (*_ENLARGED, down("follower.roller_radius")),
         "cutter-radius": (down("cam.cutter_radius"),),
+        "constant-sum": (up("return_roller.distance"), left_out("return_roller.distance")),
     }
     extra_tables: ClassVar[tuple[str, ...]] = (
         "segments",
@@ -490,7 +491,8 @@ class DiscCamDesign(OfFollower, Design):
         off, limit = float(np.abs(along - distance).max()), 1e-9 * distance
         what, aside = "deviation of the sum of the pitch radii", f"roller distance {short(distance)} mm"
         status: Status = "fail" if off > limit else "pass"
-        fix = "increase return_roller.distance: the return roller passes the cam axis"
+        farthest = safely_above(float((cams.start_height + lift).max()))
+        fix = f"set return_roller.distance above {farthest} mm: the return roller passes the cam axis"
         yield CONSTANT_SUM.check(status, what, off, limit, "mm", aside=aside, fix=fix)
 
     def check_lift_off(self) -> Iterator[Check]:

@@ -928,10 +928,10 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         target, place, angle = self.spec.target, self.pose_error_max, self.pose_angle_error_max
         if target is None or place is None or angle is None:
             return
-        yield target_check("the position of a pose", place, target.tolerance or _POSE_FIT, "mm")
+        yield target_check("the position of a pose", place, target.tolerance or _POSE_FIT, "mm", "target.tolerance")
         limit = target.angle_tolerance or (_POSE_FIT if target.tolerance is None else None)
         if limit is not None:
-            yield target_check("the angle of a pose", math.degrees(angle), limit, "deg")
+            yield target_check("the angle of a pose", math.degrees(angle), limit, "deg", "target.angle_tolerance")
 
     def check_target(self) -> Iterator[Check]:
         """GL307, where the file asks for points (with a tolerance) or positions."""
@@ -941,10 +941,11 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         yield from self._pose_checks()
         asked = None if self.spec.target is None else self.spec.target.function
         if asked is not None and asked.tolerance is not None and self.structural_error is not None:
-            yield target_check("the function", math.degrees(self.structural_error), asked.tolerance, "deg")
+            key = "target.function.tolerance"
+            yield target_check("the function", math.degrees(self.structural_error), asked.tolerance, "deg", key)
         target, worst_point = self.spec.target, self.path_deviation_max
         if worst_point is not None and target is not None and target.tolerance is not None:
-            yield target_check("the path from a point", worst_point, target.tolerance, "mm")
+            yield target_check("the path from a point", worst_point, target.tolerance, "mm", "target.tolerance")
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: input and output gear with an idler between them."""

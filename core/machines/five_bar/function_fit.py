@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.wording import amount
+from gearlink.core.base.wording import amount, ascending
 from gearlink.core.machines.five_bar.function_motion import (
     FunctionFiveBar,
     Positions,
@@ -472,8 +472,10 @@ def _require(positions: Positions) -> None:
         )
     for (one, _), (other, _) in pairwise(positions):
         if not one < other:
+            angles = [math.degrees(angle) for angle, _ in positions]
             raise NoSolution(
-                f"input angles must ascend: {math.degrees(other):g} deg follows {math.degrees(one):g} deg; sort them"
+                f"input angles must ascend: {math.degrees(other):g} deg follows {math.degrees(one):g} deg",
+                fix=ascending(angles, "target.positions[{}][0]") or "sort them",
             )
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from gearlink.core.base.spec import Entries, OfFollower, Spec, Speed, refused, unit
-from gearlink.core.base.wording import unlike
+from gearlink.core.base.wording import ascending, unlike
 from gearlink.core.parts.cams.spec import SegmentLaw
 
 Lift = Annotated[float, unit("mm", ge=-1e6, le=1e6), OfFollower("deg")]
@@ -123,21 +123,21 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
     for before, after in pairwise(ends):
         if after <= before:
             words = f"one ends at {unlike(after, before)} deg, after {unlike(before, after)} deg"
-            raise refused(f"the segments must ascend: {words}\ncount each `to` from cam angle 0", "motion")
+            fix = ascending(ends, "motion[{}].to", 0.0, 360.0) or "count each `to` from cam angle 0"
+            raise refused(f"the segments must ascend: {words}\n{fix}", "motion")
     if ends[-1] != 360.0:
-        raise refused(
-            f"end of the last segment: {unlike(ends[-1], 360.0)} deg (required 360 deg)\nset its to: 360", "motion"
-        )
+        words = f"end of the last segment: {unlike(ends[-1], 360.0)} deg (required 360 deg)"
+        raise refused(f"{words}\nset motion[{len(ends) - 1}].to to 360", "motion")
     if motion[-1].return_ is None:
-        last = next((each.lift for each in reversed(motion) if each.lift is not None), initial_lift)
+        strokes = [(i, each.lift) for i, each in enumerate(motion) if each.lift is not None]
+        place, last = strokes[-1] if strokes else (0, initial_lift)
         if any(each.return_ for each in motion):
             return  # the lift after a mirrored rise is known with the laws
         if last != initial_lift:
-            raise refused(
-                f"the lift ends at {unlike(last, initial_lift)} and starts at {unlike(initial_lift, last)}\nadd a "
-                "segment that returns",
-                "motion",
-            )
+            words = f"the lift ends at {unlike(last, initial_lift)} and starts at {unlike(initial_lift, last)}"
+            many = len(strokes) > 1
+            fix = f"set motion[{place}].lift to {initial_lift:.9g}" if many else "add a segment that returns"
+            raise refused(f"{words}\n{fix}", "motion")
 
 
 def _require_table(rows: list[list[float]]) -> None:

@@ -12,7 +12,7 @@ from pydantic import AfterValidator, Field
 
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.spec import Entries, Spec, refused, unit
-from gearlink.core.base.wording import unlike
+from gearlink.core.base.wording import ascending, unlike
 from gearlink.core.parts.cams.motion_spec import FEWEST_POINTS, FromFile, Segment
 from gearlink.core.parts.cams.spec import SegmentLaw
 
@@ -59,11 +59,27 @@ def _whole_turns(motion: list[OutputSegment] | OutputTable) -> list[OutputSegmen
         ends = [segment.to for segment in motion]
         first, gained = 0.0, next((each.output for each in reversed(motion) if each.output is not None), 0.0)
     if any(after <= before for before, after in pairwise(ends)):
-        raise refused("the input angles of the motion must ascend")
+        fix = "" if isinstance(motion, OutputTable) else ascending(ends, "motion[{}].to", 0.0, 360.0)
+        raise refused(f"the input angles of the motion must ascend\n{fix or 'count each from input angle 0'}")
+    last = len(ends) - 1
     if first != 0.0 or ends[-1] != 360.0:
-        raise refused(f"end of the last segment: input angle {unlike(ends[-1], 360.0)} deg (required 360 deg)")
-    if abs(gained - 360.0 * round(gained / 360.0)) > _FIT:
-        raise refused(f"end of the output: {gained:.6g} deg (required whole revolutions, such as 0 or 360 deg)")
+        to = "motion.table[{}][0]" if isinstance(motion, OutputTable) else "motion[{}].to"
+        fix = f"set {to.format(0)} to 0" if first != 0.0 else f"set {to.format(last)} to 360"
+        raise refused(
+            f"end of the last segment: input angle {unlike(ends[-1], 360.0)} deg (required 360 deg)\n{fix}"
+            if first == 0.0
+            else f"start of the table: input angle {first:g} deg (required 0 deg)\n{fix}"
+        )
+    whole = 360.0 * round(gained / 360.0)
+    if abs(gained - whole) > _FIT:
+        if isinstance(motion, OutputTable):
+            to, whole = f"motion.table[{last}][1]", motion.rows[0][1] + whole
+        else:
+            to = f"motion[{max(i for i, each in enumerate(motion) if each.output is not None)}].output"
+        raise refused(
+            f"end of the output: {gained:.6g} deg (required whole revolutions, such as 0 or 360 deg)\nset {to} to "
+            f"{whole:.9g}"
+        )
     return motion
 
 

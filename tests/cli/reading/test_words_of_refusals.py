@@ -115,3 +115,26 @@ def test_a_word_that_is_no_command_or_law(gearlink: Any, line: str, words: str) 
     ended = gearlink(*line.split())
     assert ended.status == 2
     assert words in " ".join(ended.err.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "change", "fix"),
+    [
+        ("cam barrel_cam", "motion[3].to=147", "motion[3].to to 360"),
+        ("cam lift_cam", "motion[1].to=350", "motion[1].to to 160"),
+        ("cam lift_cam", "motion[3].to=300", "motion[3].to to 360"),
+        ("cam lift_cam", "motion[2].lift=4", "motion[2].lift to 0"),
+        ("analyze cam_gear", "motion[1].output=300", "motion[1].output to 360"),
+        ("analyze planar_cam", "cams.cam.motion[2].lift=3", "cams.cam.motion[2].lift to 0"),
+        ("analyze five_bar_positions", "target.positions[2][0]=157.1", "target.positions[2][0] to 100"),
+    ],
+)
+def test_a_motion_out_of_order_is_told_the_value(gearlink: Any, words: str, change: str, fix: str) -> None:
+    """They told to count from 0, to add a segment, or nothing; the value is taken as printed."""
+    assert refusal(gearlink, words, change)["help"] == f"set {fix}"
+    *command, name = words.split()
+    key, _, value = fix.partition(" to ")
+    repaired = (
+        ("--set", f"{key}={value}") if change.startswith(f"{key}=") else ("--set", change, "--set", f"{key}={value}")
+    )
+    assert gearlink(*command, DESIGNS / f"{name}.yaml", *repaired, "-q").status in (0, 1)

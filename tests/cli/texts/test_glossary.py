@@ -292,7 +292,7 @@ def test_examples_of_the_thesis_name_their_design_files(gearlink: Any, place: An
         ("cam: {prime_radius: 70, bore: 30}", "write `shaft_radius` in `cam`, half of it"),
         ("follower: {type: oscillating-roller, arm_length: 95}", "write `arm` in `follower`"),
         ("follower: {type: oscillating-roller, pivot: [130, 0]}", "write `center_distance` and `pivot_direction`"),
-        ("motion: [{to: 90, lift: 5}, {to: 60}, {to: 360, lift: 0}]", "count each `to` from cam angle 0"),
+        ("motion: [{to: 90, lift: 5}, {to: 60}, {to: 360, lift: 0}]", "set motion[1].to to 225"),
     ],
 )
 def test_words_of_a_cam_designer_lead_to_their_keys(gearlink: Any, tmp_path: Path, line: str, help: str) -> None:

@@ -7,6 +7,7 @@ to some percent (own derivation).
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import mpmath
@@ -241,3 +242,27 @@ def test_refusals() -> None:
     ):
         with pytest.raises(ValueError, match=words):
             design(GIVEN, **keys)
+
+
+@pytest.mark.parametrize(
+    ("name", "keys"),
+    [
+        ("undercut", {"pin_circle_radius": 37}),
+        ("gear-collision", {"pin_radius": 16}),
+        ("shaft-clearance", {"output_pins__radius": 16}),
+        ("shaft-clearance", {"output_pins__circle_radius": 47}),
+        ("pitting", {"torque": 30000}),
+        ("pitting", {"width": 0.2}),
+        ("interference", {"modification__pin_circle": 0.5}),
+    ],
+)
+def test_the_value_that_a_finding_names_repairs_it(name: str, keys: dict[str, Any]) -> None:
+    """Closed forms: the stress falls with the root of the width, the gap grows with the offset, a hole with its pin."""
+    found = design("cycloidal_reducer", **keys).check(name)
+    bad = [check for check in found if check.status == "fail"]
+    assert bad
+    for check in bad:
+        (key, bound, value) = re.findall(r"set ([\w.]+) (to at least|to at most|below) ([\d.]+)", check.advice)[0]
+        applied = float(value) * (1.0 - 1e-9 if bound == "below" else 1.0)
+        after = design("cycloidal_reducer", **(keys | {key.replace(".", "__"): applied})).check(name)
+        assert after[found.index(check)].status != "fail", check.advice

@@ -17,6 +17,7 @@ from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.remedies.trials import with_fix
 from gearlink.core.base.remedies.ways import printed
+from gearlink.core.base.spec_paths import put
 
 _SET = re.compile(r"(?:set|and) ([\w.\[\]]+) (?:to at most|to at least|to|above|below|from) (-?[\d.]+(?:e[-+]?\d+)?)")
 _REMOVED = re.compile(r"remove ([\w.]+)")
@@ -24,7 +25,11 @@ _REMOVED = re.compile(r"remove ([\w.]+)")
 
 def asked(base: str | dict[str, Any], **keys: Any) -> FileDesigns:
     """The designs of a file's data."""
-    data = factory.changed(factory.worked(base) if isinstance(base, str) else base, **keys)
+    whole = {key: value for key, value in keys.items() if "[" not in key}
+    data = factory.changed(factory.worked(base) if isinstance(base, str) else base, **whole)
+    for key, value in keys.items():
+        if key not in whole:
+            put(data, key.replace("__", "."), value)
     kind = KINDS[data["kind"]]
     return FileDesigns(kind, kind.spec_model().model_validate(data))
 
@@ -102,3 +107,44 @@ def test_a_press_whose_cam_jams_or_whose_bed_reverses_names_a_value(name: str, k
         after = asked("ty460", **(keys | told(str(check.fix))))
         assert all(each.status != "fail" for each in after.of("cam").findings("cam", name)), check.fix
         assert all(each.status != "fail" for each in after.of("press").findings("press", name)), check.fix
+
+
+_ROLLERS = {
+    "kind": "disc-cam",
+    "closure": "conjugate",
+    "motion": [{"to": 90, "lift": 30}, {"to": 180}, {"to": 270, "lift": 0}, {"to": 360}],
+    "follower": {"type": "translating-roller", "roller_radius": 8},
+    "cam": {"prime_radius": 50},
+    "return_roller": {"distance": 20, "radius": 8},
+}
+
+
+def test_rollers_too_near_for_the_return_cam_name_a_distance() -> None:
+    """They told to increase return_roller.distance; twice the start height and both lifts is that of equal cams."""
+    (check,) = asked(_ROLLERS).of("cam").findings("cam", "constant-sum")
+    assert check.status == "fail"
+    assert check.remedy == (("return_roller.distance", None),)
+    bound = float(re.findall(r"above ([\d.]+)", check.advice)[0])
+    assert bound == 50.0 + 30.0
+    for distance, status in ((bound - 0.1, "fail"), (2.0 * 50.0 + 30.0, "pass")):
+        (after,) = asked(_ROLLERS, return_roller__distance=distance).of("cam").check("constant-sum")
+        assert after.status == status
+
+
+@pytest.mark.parametrize("keys", [{"cam__return_roller__angle": 110}, {"cam__roller__arm": 260}])
+def test_a_cam_beside_the_axis_of_its_rocker_names_a_value(keys: dict[str, Any]) -> None:
+    """They told to move pivots.input, with which the cams grow as far as the axis moves."""
+    warned = [
+        each for each in asked("swing_gripper", **keys).of("cam").findings("cam", "shaft-clearance") if each.remedy
+    ]
+    assert warned
+    for check in warned:
+        after = asked("swing_gripper", **(keys | told(str(check.fix)))).of("cam")
+        assert all(each.status == "pass" for each in after.check("shaft-clearance")), check.fix
+
+
+def test_an_axis_that_no_key_clears_is_left_to_the_planes() -> None:
+    """The file knows no planes along the shafts: nothing in it says that one ends before another."""
+    keys = {"pivots__output": [217.5, 55]}
+    for check in asked("swing_gripper", **keys).of("cam").findings("cam", "shaft-clearance"):
+        assert check.remedy or check.status == "pass" or "before the plane of the" in check.advice
