@@ -77,9 +77,6 @@ if TYPE_CHECKING:
 # meanwhile, since it may not come to a dead centre.
 
 
-_DRUM_REMEDY = "turn arm.direction"
-
-
 ONE_SHAFT = 0.1
 """Axes that stand no farther apart [mm] are those of one shaft: two shafts never do."""
 
@@ -92,14 +89,12 @@ class Axis(NamedTuple):
         name : str - "the cam shaft"
         place : complex [mm]
         radius : float [mm] - of its shaft, 0 where the file does not name it
-        remedy : str - what moves it
     """
 
     letter: str
     name: str
     place: complex
     radius: float
-    remedy: str
 
 
 class Pass(NamedTuple):
@@ -136,13 +131,13 @@ def axes_of(design: SwingGripper) -> tuple[Axis, ...]:
     spec, shaft = design.spec, design.cams.section.shaft_radius
     named = f"the cam shaft (radius {shaft:g} mm)" if shaft > 0.0 else "the cam axis"
     axes = (
-        Axis("O", named, design.cams.center, shaft, "move cam.center"),
-        Axis("A", "the cam rocker's axis", complex(*spec.pivots.input), 0.0, "move pivots.input"),
-        Axis("E", "the gripper's axis", complex(*spec.pivots.output), 0.0, "move pivots.output"),
+        Axis("O", named, design.cams.center, shaft),
+        Axis("A", "the cam rocker's axis", complex(*spec.pivots.input), 0.0),
+        Axis("E", "the gripper's axis", complex(*spec.pivots.output), 0.0),
     )
     if cam_turns_drum(design):
         return axes
-    return (*axes, Axis("T", "the axis of the cylinder that takes the sheet", drum_axis(design), 0.0, _DRUM_REMEDY))
+    return (*axes, Axis("T", "the axis of the cylinder that takes the sheet", drum_axis(design), 0.0))
 
 
 class Passes:
@@ -335,12 +330,16 @@ _FINE = 3
 """Digits behind the point of what places the handover."""
 _LINKAGE = (*either("output_direction", step=0.5), *either("links.coupler", "links.output", "links.input"))
 _ROLLERS = either("cam.roller.angle", "cam.return_roller.angle", step=1.0)
+_AXES = either(
+    "cam.center[0]", "cam.center[1]", "cam.roller.arm", "cam.return_roller.arm", "arm.direction", "pivots.input[0]",
+    "pivots.input[1]",
+)  # fmt: skip
 _WAYS = {
     "transmission-angle": _LINKAGE,
     "conditioning": _LINKAGE,
     "handover": (down("release.window"),),
     "pressure-angle": (*_ROLLERS, *_LINKAGE),
-    "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius")),
+    "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius"), *_AXES),
     "lift-off": either("cam.return_roller.angle", step=1.0),
     "finger-release": (down("fingers.open.from", step=0.5), down("fingers.open.over", step=0.5)),
     "stop-settling": (down("stop.restitution", step=0.05), down("stop.clearance", step=0.01)),
@@ -531,7 +530,7 @@ def cams(design: SwingGripper) -> Iterator[Check]:
     for cam in design.cams.discs:
         for axis in design.axes[1:]:
             room = abs(axis.place - design.cams.center) - cam.max_radius
-            advice = axis.remedy
+            advice = f"end that shaft before the plane of the {cam.name} (overhung)"
             shaft, takes = room_for_shaft(design, cam.roller_radius)
             yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, shaft, axis.name, advice, takes=takes)
 
@@ -547,13 +546,14 @@ def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
     needed, takes = room_for_shaft(design, design.cams.section.roller.radius)
     for axis in design.axes[:2]:
         within, thick = axis.radius, 0.0 if axis.radius > 0.0 else needed
-        advice = axis.remedy
+        advice = "end that shaft before the {} (overhung)"
         if not (axis.letter == "O" and cam_turns_drum(design)):
             room = abs(drum - axis.place) - radius - within
             words = "cylinder that takes the sheet"
-            yield from over_axis_check(SHAFT_CLEARANCE, words, room, thick, axis.name, advice, takes=takes)
-        room = room_beside_arm(design, axis.place) - within
-        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, thick, axis.name, advice, takes=takes)
+            said = advice.format("cylinder")
+            yield from over_axis_check(SHAFT_CLEARANCE, words, room, thick, axis.name, said, takes=takes)
+        room, said = room_beside_arm(design, axis.place) - within, advice.format("gripper arm")
+        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, thick, axis.name, said, takes=takes)
 
 
 def rollers(design: SwingGripper) -> Iterator[Check]:
@@ -1060,6 +1060,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     extreme_names = _EXTREMES
     motion_extremes: dict[str, Any] = placed("motion.extremes")
     cost = 7.0
+    repaired_where_they_warn = frozenset(("shaft-clearance",))
 
     def candidates(self, check: str) -> Iterator[Remedy]:
         """Remedies of a check from closed forms, the first to be tried first."""
