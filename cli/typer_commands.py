@@ -216,7 +216,9 @@ def _chart(
         str, typer.Argument(metavar="NAME", help="chart; default: list the charts", autocompletion=offers("charts"))
     ] = "",
     spec: Annotated[str, typer.Argument(metavar="SPEC", help="design file, of the chart residual")] = "",
-    design: Annotated[str, typer.Option("--design", metavar="SPEC", help="mark this design in the chart")] = "",
+    design: Annotated[
+        list[str] | None, typer.Option("--design", metavar="SPEC", help="mark this design in the chart")
+    ] = None,
     range_: Annotated[str, typer.Option("--range", metavar="LOW:HIGH", help="range of the x axis")] = "",
     curves: Annotated[
         str, typer.Option("--curves", metavar="A,B,...", help="draw a curve for each of these parameters")
@@ -240,8 +242,13 @@ def _chart(
     """
     from gearlink.cli.commands.chart import Asked, run_chart
 
+    designs = [*(design or ()), *([spec] if spec else ())]
+    if len(designs) > 1:
+        words = f"a chart marks one design, not {len(designs)}: call it once for each"
+        raise typer.BadParameter(words, param_hint="--design")
+    marked = designs[0] if designs else ""
     raise typer.Exit(
-        run_chart(Asked(name, range_, curves, samples, design or spec, (device, stretch_ratio, pivot_ratio)), options)
+        run_chart(Asked(name, range_, curves, samples, marked, (device, stretch_ratio, pivot_ratio)), options)
     )
 
 

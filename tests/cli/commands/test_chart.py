@@ -122,6 +122,11 @@ def test_without_a_name_the_charts_are_listed(gearlink: Any) -> None:
         (("back-step", "--design", "designs/thesis_example_3_mended.yaml"), "set gears.output to 20"),
         (("back-step", "--design", "designs/thesis_example_2.yaml"), "never steps back"),
         (("back-step", "--design", "designs/none.yaml"), "none.yaml"),
+        (("back-step", *("--design", "designs/thesis_example_2.yaml") * 2), "a chart marks one design, not 2"),
+        (
+            ("residual", "designs/lift_cam.yaml", "--design", "designs/barrel_cam.yaml"),
+            "a chart marks one design, not 2",
+        ),
     ],
 )
 def test_refusals(gearlink: Any, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], words: str) -> None:
