@@ -53,7 +53,12 @@ Made = TypeVar("Made", bound="Design")
 
 
 class Kin(Protocol):
-    """The designs of one file, one for each of its commands."""
+    """The designs of one file, one for each of its commands.
+
+    `remedies` are those that were found for commands which refuse the design: the others try them first.
+    """
+
+    remedies: list[Remedy]
 
     def of(self, command: str) -> Design:
         """The design for a command; the same object each time while it is in use."""
@@ -172,7 +177,9 @@ class Design:
     beside_tables: ClassVar[Mapping[str, Outline]] = {}
     """Quantities and checks that an extra table brings along, which are dear without it."""
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
-    requirements: ClassVar[frozenset[str]] = frozenset(("speed", "input_speed", "loads.speed"))
+    requirements: ClassVar[frozenset[str]] = frozenset(
+        ("speed", "input_speed", "loads.speed", "target", "dwell.angle", "dwell.window", "dwell.tolerance", "back_step")
+    )
     """Keys of what the machine has to do: a fix that changes one asks for less, and is sought last."""
     repaired_where_they_warn: ClassVar[frozenset[str]] = frozenset()
     """Checks whose remedy is computed, and so is named where they only warn as well; trials wait for what fails."""
@@ -181,6 +188,8 @@ class Design:
     kin: Kin | None = None  # the designs of its file's other commands; None where it was made by itself
     warnings = True
     checks_need_search: ClassVar[bool] = False
+    repairable: ClassVar[bool] = True
+    """Whether changes of the file are tried where it is refused; not where each would be a study of its own."""
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec
@@ -459,6 +468,11 @@ class Design:
             NoSolution - where no mechanism exists
         """
         return with_remedies(self, command, tuple(self.check(check)))
+
+    @property
+    def has_ways(self) -> bool:
+        """Whether its findings may be repaired by changes that are tried."""
+        return self.repairable and (bool(self.ways) or type(self).ways_of is not Design.ways_of)
 
     def ways_of(self, check: str) -> Iterable[Way]:
         """The changes of the file that may repair a failing check."""

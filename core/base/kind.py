@@ -10,6 +10,7 @@ from weakref import WeakValueDictionary
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design, Made
     from gearlink.core.base.design_axis import Maker
+    from gearlink.core.base.report import Remedy
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Motion
 
@@ -143,6 +144,7 @@ class FileDesigns:
     def __init__(self, kind: Kind, spec: Any) -> None:
         self._kind, self._spec = kind, spec
         self._made: WeakValueDictionary[Any, Design] = WeakValueDictionary()
+        self.remedies: list[Remedy] = []
 
     def __reduce__(self) -> tuple[Any, ...]:
         return FileDesigns, (self._kind, self._spec)

@@ -121,6 +121,10 @@ def numbers_at(spec: Any, path: str) -> Iterator[str]:
     elif isinstance(value, (list, tuple)):
         for i in range(len(value)):
             yield from numbers_at(spec, f"{path}[{i}]")
+    elif isinstance(value, dict):
+        for name in value:
+            if str(name).isidentifier():  # one with a dot is quoted in a path
+                yield from numbers_at(spec, f"{path}.{name}")
     else:
         for name, field in getattr(type(value), "model_fields", {}).items():
             yield from numbers_at(spec, f"{path}.{field.alias or name}")

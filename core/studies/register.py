@@ -151,6 +151,7 @@ class RegisterDesign(Design):
     torque and backlash.
     """
 
+    repairable = False
     default_at: ClassVar[str]
     turning: ClassVar[str] = "torque on the output"
     has_outputs: ClassVar[bool] = False

@@ -46,6 +46,8 @@ _FINDINGS, _REST = 5, 10
 """All findings together may cost as much as so many; then each has its share of a tenth."""
 _ELSEWHERE = 50.0
 """What judging commands that another class serves may cost, for all findings together."""
+_BESIDE = 0.3
+"""Share of it for numbers that a refusal does not name."""
 _MUCH, _OF_WAY = 2.0, 3
 """A trial that costs so many times as much as the design is dear; values of one way that are worth one."""
 
@@ -65,17 +67,19 @@ def with_fix(design: Design, command: str, error: NoSolution) -> NoSolution:
     Notes
         What misses in a file is to be given, and the refusal says what.
     """
-    if isinstance(error, MissingSection):
+    if isinstance(error, MissingSection) or not design.repairable:
         return error
     bench, told = design.bench(command), printed(error.fix)
     leads = bool(told) and bench.leads(told)
     if leads and bench.holds(told):
         return error
-    remedy = next(filter(bench.leads, bench.of_refusal(error)), ())
+    known = [] if design.kin is None else design.kin.remedies
+    remedy = next(filter(bench.holds, known), ()) or next(filter(bench.leads, bench.of_refusal(error)), ())
     if leads and not (remedy and bench.holds(remedy)):
         return error
     if not remedy:
         return error
+    known.append(remedy)
     again = anew(error)
     again.fix = fix_words(remedy, relaxes=design.asks_less(key for key, _ in remedy))
     return again
@@ -147,7 +151,7 @@ class Bench:
                     break
                 if self._grade_elsewhere(remedy) >= wanted:
                     return next(self._farther(remedy, found.name, good), remedy)
-        return next(self._beside(found, index), ()) if found.status == "fail" else ()
+        return next(self._beside(found, index), ()) if found.status == "fail" and self._design.has_ways else ()
 
     def _beside(self, found: Check, index: int) -> Iterator[Remedy]:
         """Remedies by numbers of the file that the kind names no way of, where its own ways lead nowhere."""
@@ -270,8 +274,11 @@ class Bench:
         given = self._design.given
         own, beside = tuple(refusal_ways(given, error.key)), tuple(other_ways(given, error.key))
         for ways in (own, tuple(way for way in beside if not self._design.asks_less(way.keys))):
+            self._begin()
+            self._left *= 1.0 if ways is own or self._patient else _BESIDE
             for good in (self.holds, self._stands):
-                self._begin()
+                if self._patient:
+                    self._begin()
                 if ways is own:
                     yield from (remedy for remedy in self._closed(REFUSAL) if good(remedy))
                 for less in (False, True):
@@ -279,8 +286,11 @@ class Bench:
                     yield from (remedy for way in some for remedy in islice(self._along(way, good), 1))
 
     def leads(self, remedy: Remedy) -> bool:
-        """Whether nothing that the file asks for is refused after a change, nor worse elsewhere."""
-        return self._stands(remedy) and self._is_affordable_elsewhere(remedy) and self._grade_elsewhere(remedy) >= HOLDS
+        """Whether nothing that the commands ask for is refused after a change, nor worse elsewhere, where that can be
+        judged."""
+        return self._stands(remedy) and (
+            not self._is_affordable_elsewhere(remedy) or self._grade_elsewhere(remedy) >= HOLDS
+        )
 
     def _all(self, name: str, good: Callable[[Remedy], bool], index: int) -> Iterator[Remedy]:
         """The remedies of a finding that are good, the best first."""
@@ -388,12 +398,16 @@ class Bench:
 
     def _stands(self, remedy: Remedy) -> bool:
         trial = self._trial(remedy)
-        return trial is not None and all(map(trial.stands, self._commands))
+        stands = trial is not None and all(map(trial.stands, self._commands))
+        self._pay(remedy)
+        return stands
 
     def holds(self, remedy: Remedy) -> bool:
         """Whether nothing of the commands is refused or fails after a change."""
         trial = self._trial(remedy)
-        return trial is not None and all(trial.holds(command) for command in self._commands)
+        holds = trial is not None and all(trial.holds(command) for command in self._commands)
+        self._pay(remedy)
+        return holds
 
     def _grade(self, remedy: Remedy, name: str, index: int) -> int:
         """What a remedy makes of a finding, and leaves of the commands of its class."""

@@ -190,7 +190,7 @@ def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
 def other_ways(spec: Any, key: str) -> Iterator[Way]:
     """Ways to change the numbers beside a key, those of its own section first; nothing of the file's other tasks."""
     sections = [key[: dot.start()] for dot in reversed(list(re.finditer(r"[.\[]", key)))]
-    top = (field.alias or name for name, field in type(spec).model_fields.items())
+    top = (field.alias or name for name, field in getattr(type(spec), "model_fields", {}).items())
     paths = chain.from_iterable(numbers_at(spec, each) for each in (*sections, *(t for t in top if t not in _TASKS)))
     own = set(numbers_at(spec, key)) if key else ()
     for path in dict.fromkeys(paths):

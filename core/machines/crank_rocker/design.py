@@ -12,10 +12,9 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.base.wording import within
 from gearlink.core.mechanism.courses import Shown, all_rates, between, coordinate, motion_table, of_output, turned
 from gearlink.core.mechanism.dual import longer
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -122,7 +121,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
                 check_linkage(linkage)
             except NoSolution as error:
                 reach = "" if linkage.kind() == "impossible" else _reach(linkage)
-                fix = f"give range: [from, to] within {reach}" if reach else error.fix
+                fix = f"set range to {reach}" if reach else error.fix
                 raise NoSolution(error.message, key="links", fix=fix) from error
         return linkage
 
@@ -288,7 +287,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
 
 def _reach(linkage: FourBar) -> str:
-    """In words, the crank angles at which a four-bar closes whose crank does not turn fully; "" where it does.
+    """The range of crank angles in which a four-bar closes whose crank does not turn fully; "" where it does.
 
     BD^2 = a^2 + d^2 - 2 a d cos phi,  |b - c| <= BD <= b + c
     """
@@ -300,8 +299,8 @@ def _reach(linkage: FourBar) -> str:
     far = angle(b + c) if b + c < a + d else None
     near = angle(abs(b - c)) if abs(b - c) > abs(a - d) else None
     if near is None:
-        return "" if far is None else within(-far, far, "deg")
-    return within(near, 360.0 - near if far is None else far, "deg")
+        return "" if far is None else f"[{safely_above(-far)}, {safely_below(far)}]"
+    return f"[{safely_above(near)}, {safely_below(360.0 - near if far is None else far)}]"
 
 
 def inner_places(start: float, end: float) -> list[float]:

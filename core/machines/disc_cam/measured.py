@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import SimpleNamespace
@@ -18,7 +18,8 @@ import numpy as np
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.many_designs import column, hand_on, hand_out, sought, stacked, together
-from gearlink.core.base.report import Table, safely_below
+from gearlink.core.base.remedies.ways import REFUSAL
+from gearlink.core.base.report import Remedy, Table, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.cams import FollowerCams, Place
@@ -43,6 +44,8 @@ ROWS = 1440
 _SHORTEST_DWELL = math.radians(10.0)
 _SHORTEST_STROKE = math.radians(3.0)
 _FIT_STEPS = 30
+_FEWEST = 3
+"""Harmonics below which a series has no rise and no dwell."""
 _ALIKE = ("profile", "harmonics", "speed", "sense", "type", "side", "dwell_tolerance", "loads")
 _TURNING = ("pivot", "direction")
 _BEYOND = 0.1
@@ -658,6 +661,12 @@ class MeasuredCamDesign(DiscCamDesign):
     extreme_names = ()
 
     ways = Design.ways
+
+    def candidates(self, check: str) -> Iterator[Remedy]:
+        """Where the cam is refused, fewer harmonics, by a quarter each time: noise has many."""
+        order = self.spec.order if check == REFUSAL else 0
+        while (order := 3 * order // 4) >= _FEWEST:
+            yield (("harmonics", order),)
 
     @classmethod
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:

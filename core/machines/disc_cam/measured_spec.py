@@ -114,7 +114,7 @@ class MeasuredCamSpec(TolerancedSpec):
         count, order = len(self.profile.points or ()), self.order
         if count < 2 * order + 1:
             message = f"harmonics through {count} points: {order} (at most {(count - 1) // 2})"
-            raise refused(f"{message}\nlower harmonics, or give more points", "harmonics")
+            raise refused(f"{message}\nset harmonics to at most {(count - 1) // 2}, or give more points", "harmonics")
         return self
 
     @property

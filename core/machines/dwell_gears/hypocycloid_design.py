@@ -667,7 +667,7 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
                 f"ring {ring} over planet {planet} teeth is {unlike(ring / planet, round(ring / planet))}: the "
                 "curve does not close in one revolution of the carrier",
                 key="gears.ring",
-                fix=f"use a whole multiple, for example {near * planet}",
+                fix=f"set gears.ring to {near * planet}",
             )
         with at_key("gears.ring"):
             require_cusps(self.point_radius, ring // planet)

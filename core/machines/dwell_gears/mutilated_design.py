@@ -156,10 +156,13 @@ class MutilatedGear:
             return
         needed = self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
         step = self.driven_teeth // math.gcd(self.driven_teeth, self.stops)
+        other = f"use {amount(needed, 'stop')}"
+        near = step * max(1, round(self.group_teeth / step))
+        fix = f"set gears.group_teeth to {near}, or {other}" if near * self.groups < self.full_teeth else other
         raise NoSolution(
             f"{_teeth(self.group_teeth)} advance the driven gear {short(self.group_teeth / self.driven_teeth)} "
             f"revolutions; it must stop at a locking arc ({self.stops} of them)",
-            fix=f"set gears.group_teeth to a multiple of {step}, or use {amount(needed, 'stop')}",
+            fix=fix,
         )
 
     @property

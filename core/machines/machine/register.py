@@ -51,6 +51,7 @@ class RegisterOfMachine(Design):
     """The members of `register.chain`, each with its own sources at its own input at the print."""
 
     kind = "machine"
+    repairable = False
     spec: MachineSpec
     outlines = {
         "register": Outline(

@@ -104,15 +104,13 @@ class _Refusals:
         here = shown(self.course.dead_centre(q))
         if back is None:
             free = f"above {safely_above(here, 6)} {unit}" if q < 0.0 else f"below {safely_below(here, 6)} {unit}"
+            fix = f"let the input oscillate {free} (range: {{start, end}})"
+            if ranged:
+                fix = f"set range.{'start' if q < 0.0 else 'end'} {free}"
         else:
             low, high = sorted((here, shown(self.course.dead_centre(back))))
-            free = f"between {safely_above(low, 6)} and {safely_below(high, 6)} {unit}"
-        ways = "keep range: {start, end}" if ranged else "let the input oscillate"
-        return NoSolution(
-            f"the mechanism jams in a dead centre at input {short(here)} {unit}",
-            key="range",
-            fix=f"{ways} {free}{'' if ranged else ' (range: {start, end})'}",
-        )
+            fix = f"set range.start to {safely_above(low, 6)} and range.end to {safely_below(high, 6)} {unit}"
+        return NoSolution(f"the mechanism jams in a dead centre at input {short(here)} {unit}", key="range", fix=fix)
 
     def never_home(self) -> NoSolution:
         key = "drive.with" if self.course.structure.spec.drive.others else "meshes"

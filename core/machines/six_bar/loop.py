@@ -467,16 +467,14 @@ class _Refusals:
         if back is None:
             here = math.degrees(q)
             free = f"above {safely_above(here, 6)} deg" if q < 0.0 else f"below {safely_below(here, 6)} deg"
+            fix = f"let the input oscillate {free} (range: {{start, end}})"
         else:
             low, high = sorted((math.degrees(q), math.degrees(back)))
-            free = f"between {safely_above(low, 6)} and {safely_below(high, 6)} deg"
+            fix = f"set range.start to {safely_above(low, 6)} and range.end to {safely_below(high, 6)} deg"
         return NoSolution(
             f"the six-bar reaches a dead centre at input angle {short(math.degrees(q))} deg, where it jams",
             key="range" if ranged else "links",
-            fix=(
-                f"let the input oscillate {free} (range: {{start, end}}), lengthen the couplers, or shorten input and "
-                "output"
-            ),
+            fix=f"{fix}, lengthen the couplers, or shorten input and output",
         )
 
     def never_home(self) -> NoSolution:

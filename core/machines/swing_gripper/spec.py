@@ -346,7 +346,7 @@ class SwingGripperSpec(TolerancedSpec):
         start, end = lengths[0], lengths[0] + lengths[1]
         if not start <= self.handover <= end:
             text = f"the handover at {self.handover:g} deg lies outside the constant-speed phase"
-            raise refused(f"{text}\nset it from {start:g} to {end:g} deg", "handover", "GL108")
+            raise refused(f"{text}\nset handover from {start:g} to {end:g} deg", "handover", "GL108")
         return self
 
     @model_validator(mode="after")

@@ -29,6 +29,7 @@ class Exploration(Design):
     kind = "study"
     spec: StudySpec
     checks_need_search = True
+    repairable = False
     outlines = {
         "explore": Outline(
             ("designs", "refused", "feasible", "front_size", "kept", "shown", "exhaustive", "knee"),

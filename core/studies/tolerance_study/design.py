@@ -584,6 +584,7 @@ class ToleranceStudy(Design):
     """Samples of a design as manufactured; its nominal design's checks stand beside."""
 
     kind = ""  # that of its design file
+    repairable = False
     outlines = {
         "tolerance": Outline(
             ("yield", "yield_low", "yield_high", "samples", "seed", "no_mechanism"),

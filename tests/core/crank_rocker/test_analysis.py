@@ -190,7 +190,7 @@ def test_a_crank_that_does_not_turn_is_told_where_it_moves(links: tuple[int, ...
     }
     with pytest.raises(NoSolution) as refused:
         _ = design(data).linkage
-    assert refused.value.fix == f"give range: [from, to] within {low} to {high} deg"
+    assert refused.value.fix == f"set range to [{low}, {high}]"
     assert design(data | {"range": [low, high]}).raw("min_transmission_angle") > 0.0
     for ends in ([low - 0.1, high], [low, high + 0.1]):
         with pytest.raises(NoSolution):

@@ -234,10 +234,10 @@ def test_the_range_between_dead_centres_is_free_as_it_is_printed(length: float) 
     links = {**FOUR_BAR["links"], "rocker": ["D", "C", length]}
     with pytest.raises(NoSolution, match="dead centre") as refusal:
         planar("four-bar", links=links).require("analyze")
-    low, high = map(float, re.findall(r"between (\S+) and (\S+) deg", refusal.value.fix)[0])
+    low, high = map(float, re.findall(r"range.start to (\S+) and range.end to (\S+) deg", refusal.value.fix)[0])
     planar("four-bar", links=links, range={"start": low, "end": high}).require("analyze")
     for wrong in ({"start": low - 0.01, "end": high}, {"start": low, "end": high + 0.01}):
-        with pytest.raises(NoSolution, match="keep range"):
+        with pytest.raises(NoSolution, match="set range"):
             planar("four-bar", links=links, range=wrong).require("analyze")
 
 

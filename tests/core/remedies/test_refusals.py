@@ -60,6 +60,10 @@ def told(fix: str) -> dict[str, Any]:
         ("cam", "ty460", {"cam__return_angle": 300}),
         ("cam", "ty460", {"cam__lead_in": 350}),
         ("synth dwell", "candy_feed", {"gears__crank": 60}),
+        ("analyze", "planar_watt", {"links__rocker__C[0]": 36.4}),
+        ("analyze", "planar_five_bar", {"links__follower[2]": 24.55}),
+        ("analyze", "measured_cam", {"profile__points[83][1]": 39.3}),
+        ("analyze", "mutilated_gear_press", {"gears__driven": 46}),
     ],
 )
 def test_the_fix_of_a_refusal_lets_the_design_be(command: str, base: str, keys: dict[str, Any]) -> None:

@@ -270,7 +270,7 @@ phases\
   sum of the six phases:",
         ),
         ({"phases__constant": -12.0}, "greater than 0"),
-        ({"handover": 99.0}, "set it from 100 to 112 deg"),
+        ({"handover": 99.0}, "set handover from 100 to 112 deg"),
         ({"arm__length": 0.0}, "greater than 0"),
         ({"cylinder__radius": math.inf}, "finite"),
         ({"spring": {"torque": 400.0, "arms": [1.0, 2.0]}}, "exclude each other"),

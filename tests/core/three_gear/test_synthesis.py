@@ -312,7 +312,7 @@ def test_ratio_with_unequal_gears_is_refused_at_the_output_gear():
     (error,) = refusal.value.errors()
     assert error["type"] == "GL111"
     assert error["ctx"]["key"] == "output"
-    assert "set output to 40" in error["msg"]
+    assert "set gears.output to 40" in error["msg"]
 
 
 def test_no_target_no_check():
