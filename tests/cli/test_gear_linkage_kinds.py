@@ -93,7 +93,7 @@ def test_mutilated_gear_that_does_not_come_to_a_lock(gearlink, tmp_path):
     text = "kind: mutilated-gear-dwell\nreduction: 6\ngears: {module: 3, full_teeth: 80, group_teeth: 15, driven: 20}\n"
     (error,) = wrong(gearlink, tmp_path, text)
     assert (error["key"], error["line"]) == ("gears", 3)
-    assert error["help"] == "set gears.group_teeth to 20"
+    assert error["help"].startswith("set gears.group_teeth to 20")
     path = tmp_path / "stops.yaml"
     path.write_text(text.replace("group_teeth: 15", "group_teeth: 20"))
     assert gearlink("analyze", path).status == 0
