@@ -88,7 +88,7 @@ def whole_design(kind: Kind, spec: Any) -> Design:
 
 
 def checks_of(kind: Kind, spec: Any, known: Any = None) -> Sequence[Check]:
-    """The findings of all commands of a file; of one that refuses the design there are none.
+    """The findings of all commands of a file, without tested fixes; of one that refuses the design there are none.
 
     Parameters
         known : Kin - the designs of the file, where some are made already
@@ -97,7 +97,10 @@ def checks_of(kind: Kind, spec: Any, known: Any = None) -> Sequence[Check]:
     found: list[Check] = []
     for command in spec.commands():
         with suppress(NoSolution):
-            found += designs.of(command).report(command, findings_only=True).checks
+            design = designs.of(command)
+            design.require(command)
+            names = design.outline(command).checks
+            found += [check for name in names for check in design.check(name) if check.status != "pass"]
     return found
 
 
