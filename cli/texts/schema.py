@@ -67,13 +67,18 @@ def index() -> Index:
 
 def schema_parts(kind: Kind, prefix: str) -> tuple[Node, Node]:
     """The schema of a kind and its definitions, whose names get a prefix."""
-    stored = _schemas()
-    body, names = stored["kinds"][kind.name]
-    found = {name.partition("#")[0]: stored["definitions"][name] for name in names}
+    body, found = _stored(kind.name)
     if prefix:
         text = json.dumps([body, found]).replace('"#/definitions/', f'"#/definitions/{prefix}')
         body, found = json.loads(text)
     return body, {prefix + name: node for name, node in found.items()}
+
+
+def _stored(kind: str) -> tuple[Node, Node]:
+    """The schema of a kind and its definitions, as the file has them."""
+    stored = _schemas()
+    body, names = stored["kinds"][kind]
+    return body, {name.partition("#")[0]: stored["definitions"][name] for name in names}
 
 
 @cache
@@ -174,17 +179,37 @@ def spec_keys(kind: Kind, last: str = "", *, entries: bool = False) -> list[Spec
         last : str - the last word of those that are wanted, or a standard term of theirs; all where it is empty
         entries : bool - also those of elements of lists, `forces[].on`, and of entries with names, `bearings.NAME.kind`
     """
-    schema = kind_schema(kind)
     found: dict[str, SpecKey] = {}
-    for key in _keys(schema, schema["definitions"], "", last, 2 if entries else 0):
-        before = found.setdefault(key.path, key)
+    for path, node, required, section in _keys_of(kind.name, 2 if entries else 0):
+        if last and last != path.rpartition(".")[2] and last not in node.get("also", ()):
+            continue
+        key = SpecKey(
+            path,
+            node.get("unit", ""),
+            node.get("description", "").removesuffix(f" [{node.get('unit')}]"),
+            _range(node),
+            node.get("default"),
+            required,
+            section,
+            tuple(node.get("also", ())),
+        )
+        before = found.setdefault(path, key)
         if key.range != before.range:  # `type` of a section that has several
             either = [*before.range.split(" or "), *key.range.split(" or ")] if before.range and key.range else []
-            found[key.path] = replace(before, range=" or ".join(dict.fromkeys(either)))
+            found[path] = replace(before, range=" or ".join(dict.fromkeys(either)))
     return list(found.values())
 
 
-def _keys(section: Node, definitions: Node, before: str, last: str, deep: int) -> Iterator[SpecKey]:
+_Found = tuple[str, Node, bool, bool]
+
+
+@cache
+def _keys_of(kind: str, deep: int) -> tuple[_Found, ...]:
+    """Path and node of each key of a kind, whether its section needs it, whether it holds keys itself."""
+    return tuple(_keys(*_stored(kind), "", deep))
+
+
+def _keys(section: Node, definitions: Node, before: str, deep: int) -> Iterator[_Found]:
     """Those of a section and of the sections in it, through so many lists and names."""
     required = {*section.get("required", ()), *_either(section)}
     for name, node in section.get("properties", {}).items():
@@ -192,21 +217,11 @@ def _keys(section: Node, definitions: Node, before: str, last: str, deep: int) -
             continue
         path = before + name
         inner = list(_sections(node, definitions))
-        if not last or last == name or last in node.get("also", ()):
-            yield SpecKey(
-                path,
-                node.get("unit", ""),
-                node.get("description", "").removesuffix(f" [{node.get('unit')}]"),
-                _range(node),
-                node.get("default"),
-                name in required,
-                bool(inner),
-                tuple(node.get("also", ())),
-            )
+        yield path, node, name in required, bool(inner)
         for part in inner:
-            yield from _keys(part, definitions, path + ".", last, deep)
+            yield from _keys(part, definitions, path + ".", deep)
         for sign, part in _entries(node, definitions) if deep else ():
-            yield from _keys(part, definitions, f"{path}{sign}.", last, deep - 1)
+            yield from _keys(part, definitions, f"{path}{sign}.", deep - 1)
 
 
 def _either(section: Node) -> Iterator[str]:
