@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import pytest
@@ -20,6 +20,12 @@ def examples(count: int) -> Any:
     The cases that a property test must not miss stand beside it as examples of their own or as reference cases.
     """
     return settings(max_examples=count if ALL else max(count // SHARE, min(count, FEWEST)))
+
+
+def spread(cases: Iterable[Any], quick: int) -> list[Any]:
+    """What a test compares one by one: all in `make check-full`, in `make test` so many, evenly spread."""
+    every = list(cases)
+    return every if ALL or len(every) <= quick else [every[i * len(every) // quick] for i in range(quick)]
 
 
 def mostly_slow(cases: Sequence[Any], quick: int) -> list[Any]:
