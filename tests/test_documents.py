@@ -116,6 +116,7 @@ def test_nomenclature_and_glossary_are_those_of_the_program() -> None:
     assert (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8") == module.glossary_text(), "run `make docs`"
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.name)
 def test_every_worked_design_runs(path: Path, gearlink: Any) -> None:
     """With its tables; that all of them pass, tests/cli/commands/test_check.py holds."""

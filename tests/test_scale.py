@@ -89,6 +89,7 @@ CASES = [
 ]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("example", "command"), mostly_slow(CASES, 6))
 def test_a_large_slow_heavy_machine_has_the_same_digits(example: str, command: str) -> None:
     data = factory.worked(example)
