@@ -63,6 +63,7 @@ def test_worked_designs_ask_for_every_command():
         assert commands == set(KINDS[kind].commands) - {"loads", "tolerance", "register"}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", ["synth back-step", "synth momentary-dwell"])
 def test_other_syntheses_of_a_two_gear_four_bar(command, gearlink, designs):
     path = designs / "two_gear_standing.yaml"

@@ -211,7 +211,7 @@ def misspelled(data: Any, path: tuple[Any, ...]) -> Any:
     return made
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "name", ["loaded_geneva", "planar_quick_return", "wide_swing_cycle", "rated_pair", "ty460", "candy_feed_tolerances"]
 )

@@ -131,6 +131,7 @@ def test_batch_and_check(gearlink: Any, hostile: Path, form: str) -> None:
                 assert not any(text[:1] in "=+-@" and not re.fullmatch(r"-?[\d.e+-]+", text) for text in row if text)
 
 
+@pytest.mark.quick(1)
 def test_annotations(gearlink: Any, hostile: Path) -> None:
     """Each line is one workflow command of the program's own."""
     for line in gearlink("batch", hostile, "--format", "github").out.splitlines():

@@ -92,7 +92,7 @@ def test_json_has_the_remedy_too(gearlink: Any, pair: Path) -> None:
     assert error["help"] == "use `gearlink analyze SPEC --format json`"
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", COMMANDS)
 def test_whatever_is_recommended_for_a_format_takes_it(name: str) -> None:
     """For every command and every format word: the option that is named belongs to the command and has the word."""
@@ -117,7 +117,7 @@ def _is_number(param: Any) -> bool:
     return param.param_type_name == "option" and not {int, float}.isdisjoint({kind, *get_args(kind)})
 
 
-@pytest.mark.quick(20)
+@pytest.mark.quick(8)
 @pytest.mark.parametrize(("command", "option"), _of_numbers())
 def test_a_number_that_is_none_names_its_option(gearlink: Any, pair: Path, command: str, option: str) -> None:
     params = COMMANDS[command].params
