@@ -20,12 +20,14 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from sweeps import ALL
 
 from gearlink.cli.exit_codes import ExitCode
 
 ROOT = Path(__file__).resolve().parents[3]
 CRANK = "kind: slider-crank\nstroke: {stroke}\nrod: 520\noffset: 50\n"
 BROKEN = "kind: slider-crank\nrod: 5\n"
+MANY = 24 if ALL else 8
 
 
 @pytest.fixture
@@ -56,12 +58,12 @@ def test_verdicts(gearlink: Any, folder: Path) -> None:
 
 
 def test_processes_change_nothing(gearlink: Any, folder: Path) -> None:
-    for i in range(24):
+    for i in range(MANY):
         (folder / f"crank_{i:02}.yaml").write_text(CRANK.format(stroke=100 + i))
     one = gearlink("batch", folder, "--format", "json", "-j", "1")
     two = gearlink("batch", folder, "--format", "json", "-j", "2")
     assert plain(one) == plain(two)
-    assert len(plain(one)) == 5 + 2 * 24
+    assert len(plain(one)) == 5 + 2 * MANY
 
 
 def test_shares_make_up_the_whole(gearlink: Any, folder: Path) -> None:
@@ -410,10 +412,10 @@ def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, m
 
     one = gearlink("batch", folder, "--format", "json", "-j", "1")
     monkeypatch.setattr(os, "fork", none_left)
-    for i in range(24):
+    for i in range(MANY):
         (folder / f"crank_{i:02}.yaml").write_text(CRANK.format(stroke=100 + i))
     two = gearlink("batch", folder, "--format", "json", "-j", "2")
-    assert len(plain(two)) == 5 + 2 * 24
+    assert len(plain(two)) == 5 + 2 * MANY
     assert [d for d in plain(two) if "crank_" not in d["file"]] == plain(one)
 
 

@@ -80,6 +80,7 @@ CHANGES: dict[str, Any] = {
 }
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", CHANGES)
 def test_what_has_changed_is_computed(run: Any, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     run()
