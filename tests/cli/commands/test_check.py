@@ -322,6 +322,7 @@ def test_a_slider_crank_is_checked_without_a_limit_in_its_file(gearlink: Any, tm
         assert gearlink(command, path).status == 1
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["standing_feed", "two_gear_standing"])
 def test_loads_of_links_that_a_synthesis_finds(gearlink: Any, designs: Path, tmp_path: Path, name: str) -> None:
     """Those of the completed file; `check` runs them, where they were left unread once."""

@@ -339,6 +339,7 @@ def test_a_part_of_a_name_and_a_slip_are_near(gearlink: Any, word: str, near: st
     assert f"nearest: {near}" in gearlink("explain", word).err
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(
     ("name", "about", "words"),
     [
@@ -369,6 +370,7 @@ def test_what_texts_say_is_found_in_them(gearlink: Any) -> None:
     assert "occurs in the texts of root_radius" in gearlink("explain", "space").err
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("asked", "within"), [("how long is the dwell", "dwell"), ("预定停歇角", "停歇角"), ("is a rocker good", "rocker")]
 )

@@ -115,6 +115,7 @@ def test_a_ring_has_negative_teeth(gearlink: Any) -> None:
     assert all(row[1] < -row[0] for row in rows)
 
 
+@pytest.mark.slow
 def test_pairs_beyond_a_limit_come_last_and_are_said_to_be_alone(gearlink: Any) -> None:
     """Rings want a negative sum of shifts: with full teeth their tips meet the roots of pinions otherwise."""
     task = ("gears", "--ratio", 2.4, "--center-distance", 90, "--internal")

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design, worked
+from sweeps import spread
 
 from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.views.figures.drawing import time_axes
@@ -87,6 +88,7 @@ def test_jerk_of_the_gripper_joins_its_acceleration(number: int) -> None:
         assert np.abs(grown - (lower - lower[0])).max() < jumps + 1e-4 * np.abs(lower).max()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["candy_feed", "ring_feed", "drawn_feed"])
 def test_marked_extremes_are_those_of_the_analysis(name: str) -> None:
     """A parabola through points half a degree apart would miss their places by up to 0.003 deg."""
@@ -150,7 +152,7 @@ def test_timing_is_in_angles_of_the_input() -> None:
 
 
 def test_radii_of_each_degree_lie_on_the_pitch_curve() -> None:
-    for name in ("ty460", "swing_gripper"):
+    for name in spread(("swing_gripper", "ty460"), 1):
         for cam in cam_sheets.discs(design(worked(name))):
             radii = cam_sheets.pitch_radii(cam)
             theta = np.linspace(0.0, 2.0 * math.pi, 50001)
