@@ -201,6 +201,7 @@ cam: {prime_radius: 60}
 """
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("more", [(), ("--cam-table",)])
 def test_what_fails_is_said_of_what_was_written(gearlink: Any, tmp_path: Path, more: tuple[str, ...]) -> None:
     file = tmp_path / "steep.yaml"
