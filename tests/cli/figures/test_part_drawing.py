@@ -160,6 +160,7 @@ def test_an_idler_names_both_mates() -> None:
     assert [value for item, _, value, _ in lines if item == "centre distance"] == [57.5, 107.5]
 
 
+@pytest.mark.slow
 def test_places_of_a_wide_swing_cam_are_those_of_its_roller() -> None:
     """Rows of three cam angles against the curve at that cam angle, found by bisection; half of the last digit."""
     made = whole("wide_swing_twin_cam")

@@ -24,6 +24,7 @@ from gearlink.core.parts.cams import law_tables
 SIX_BAR: list[tuple[list[int], float]] = [([20, 30], 3.0), ([20, 21], 21.0), ([20, 20], 1.0)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("gears", "turns"), mostly_slow(SIX_BAR, 1))
 def test_numbers_along_many_turns_reach_from_end_to_end(gears: list[int], turns: float) -> None:
     """They had stood over the first turn alone."""
@@ -202,6 +203,7 @@ def test_sizes_of_a_cam_interrupt_their_lines_and_are_as_wide_as_planned() -> No
     assert wide <= true_size._LETTER * max(map(len, note.get_text().split("\n")))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("prime", [60.0, 75.0])
 def test_the_arrow_of_rotation_is_clear_of_the_sizes(prime: float) -> None:
     """It stood at a fixed place, where a radius may be."""

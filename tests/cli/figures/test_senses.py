@@ -15,6 +15,7 @@ from gearlink.core.base.kinds import KINDS
 _LEAST = 14.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["geneva_drive", "crank_rocker", "lift_cam", "hypocycloid_slider"])
 def test_the_arc_of_an_arrow_is_longer_than_its_head(name: str) -> None:
     data = worked(name)

@@ -100,6 +100,7 @@ def test_force_arrows_are_those_of_the_table(name: str) -> None:
     assert seen >= 4
 
 
+@pytest.mark.slow
 def test_a_link_stands_still_at_its_instant_centre() -> None:
     mechanism = design("planar_watt").moving.at(np.linspace(0.1, 6.0, 7), 1)
     for name, link in mechanism.links.items():
@@ -520,6 +521,7 @@ def test_an_instant_centre_beyond_the_picture_has_an_arrow_at_its_edge() -> None
     assert "P coupler" in [text.get_text() for text in vector_sheet.draw(made, [80.0], "centres").axes[0].texts]
 
 
+@pytest.mark.slow
 def test_sheets_call_inputs_and_points_in_words() -> None:
     """The input of a gripper was the letter of its tables, points had the underscores of their names."""
     gripper = design("swing_gripper")
@@ -542,6 +544,7 @@ def test_a_vector_that_is_zero_is_a_point_on_the_scale_of_the_others() -> None:
     assert np.ptp(axes.get_ylim()) > 0.1 * largest
 
 
+@pytest.mark.slow
 def test_names_of_findings_do_not_cover_the_headings_of_columns() -> None:
     """They covered the name of an output in the second column."""
     made = design("planar_watt", limits__transmission_angle=85.0)
