@@ -88,7 +88,7 @@ def test_the_alias_of_a_section_that_no_example_has() -> None:
     assert refused(data | {"profile": {**body, "angle_of_action": 150, "action_angle": 150}})
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("kind", "path", "term"), CASES)
 def test_a_file_is_read_with_a_standard_term(kind: str, path: str, term: str) -> None:
     section, _, name = path.rpartition(".")

@@ -36,7 +36,7 @@ def without(data: dict[str, Any], path: str) -> dict[str, Any]:
     return changed
 
 
-@pytest.mark.quick(10)
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(("kind", "meaning"), CASES, ids=[f"{kind}-{meaning.words[0]}" for kind, meaning in CASES])
 def test_a_word_names_the_key_of_its_kind(kind: str, meaning: Meaning) -> None:
     """On top of a file and in the section of the key; that the key is missing is not said as well."""

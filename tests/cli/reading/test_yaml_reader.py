@@ -329,6 +329,7 @@ def test_a_template_that_nobody_filled_in_says_what_to_do() -> None:
     assert wrong.help == "take the braces or brackets away, or put text with them in quotes"
 
 
+@pytest.mark.slow
 def test_node_cap_is_exact() -> None:
     data("a: [" + "1," * (MAX_NODES - 2) + "]\n")
     assert first("a: [" + "1," * (MAX_NODES - 1) + "]\n")[0] == "GL110"
@@ -363,7 +364,10 @@ ATTACKS = {
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow) if name in ("empty lines", "quotes") else name for name in ATTACKS],
+    [
+        pytest.param(name, marks=pytest.mark.slow) if name in ("empty lines", "quotes", "many duplicates") else name
+        for name in ATTACKS
+    ],
 )
 def test_attacks_are_refused_at_once(name: str) -> None:
     text, code = ATTACKS[name]
