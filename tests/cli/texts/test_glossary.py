@@ -264,6 +264,7 @@ def test_nothing_reads_the_glossary_before_it_is_asked_for() -> None:
     subprocess.run([sys.executable, "-c", probe], check=True, cwd=DESIGNS.parent)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("symbol", "name"),
     [
