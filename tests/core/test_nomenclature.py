@@ -104,14 +104,6 @@ def test_an_outline_names_nothing_twice(outline):
         assert [name for name, count in Counter(names).items() if count > 1] == []
 
 
-@pytest.mark.parametrize("outline", OUTLINES)
-def test_no_symbol_stands_for_two_quantities_of_one_result(outline):
-    # a design with two meshes has every gear symbol once for each of them
-    symbols = {name: term(name).symbol for name in outline.quantities if "." not in name}
-    shared = [symbol for symbol, count in Counter(symbols.values()).items() if symbol and count > 1]
-    assert shared == []
-
-
 # Letters of two standards or sources, of quantities that no command gives side by side.
 TWO_SOURCES = {
     frozenset(pair.split())

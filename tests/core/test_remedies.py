@@ -126,7 +126,7 @@ SEEDS = {"loads": 4, "cycle": 6, "gripper": 5, "press": 3, "three_gear": 2}
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(name, marks=pytest.mark.slow) if name in (*IN_THEIR_ROOMS, "gripper") else name
+        pytest.param(name, marks=pytest.mark.slow) if name in (*IN_THEIR_ROOMS, "gripper", "press") else name
         for name in DRAWN
         if name not in SLOW_KINDS
     ],

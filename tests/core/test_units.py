@@ -14,7 +14,7 @@ from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.studies.explore.base import Base
 
-QUICK = {"loaded_oscillating_cam", "loaded_cam", "loaded_gripper", "wide_swing_twin_cam", "planar_watt"}
+QUICK = {"loaded_wide_swing", "wide_swing_twin_cam"}
 PATHS = [
     path if path.stem in QUICK else pytest.param(path, marks=pytest.mark.slow)
     for path in sorted(DESIGNS.glob("*.yaml"))

@@ -106,6 +106,7 @@ def test_steps_of_the_momentary_dwell_are_the_thesis_s_put_right():
 # Press and gripper
 
 
+@pytest.mark.slow
 def test_chains_of_the_press_are_the_slopes_of_its_positions():
     press = design("ty460", command="press", cam=None)
     found, places = press.table("chains", samples=7200), press.table("positions", samples=7200)
