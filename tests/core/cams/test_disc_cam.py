@@ -135,6 +135,7 @@ def cornered(size: float, depth: float, roller: float) -> DiscCam:
     return DiscCam("cornered", path, 1, roller, (0.0,))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("depth", [-20.0, -0.5, 0.5, 20.0])
 def test_a_roller_cuts_a_ridge_of_its_pitch_curve_and_no_valley(depth):
     """Against all distances of fine grids beside the corner, which miss the depth by less than their step's square."""

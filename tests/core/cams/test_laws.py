@@ -21,7 +21,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracles.forty_digits import COEFFICIENTS as OF_REST_TO_REST
 from oracles.forty_digits import SHARES, scca_acceleration
-from sweeps import examples, mostly_slow
+from sweeps import examples, mostly_slow, spread
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED, Law, law
@@ -123,7 +123,7 @@ def test_integrals_of_the_acceleration(name: str) -> None:
     with mpmath.workdps(25):
         scale = 1 / moments(shares, 1.0)[1]
         assert rule.peak_acceleration == pytest.approx(float(scale), rel=ULPS)
-        for x in (0.03, 0.21, 0.44, 0.77):
+        for x in spread((0.03, 0.21, 0.44, 0.77), 2):
             v, s, area = (float(scale * moment) for moment in moments(shares, x))
             assert rule.evaluate(x, 2) == pytest.approx(
                 (s, v, float(scale * scca_acceleration(shares, mpmath.mpf(x)))), abs=ULPS * rule.peak_acceleration

@@ -16,6 +16,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
+from sweeps import spread
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec_paths import number_at
@@ -280,7 +281,7 @@ def test_followers_that_stand_elsewhere_are_found_together(follower: Any, sense:
     type(many[0]).find_together(many, ())
     assert all("steepest" in vars(design) for design in many)
     assert all(("steepest_rise" in vars(design.cams)) == (follower is SLIDE) for design in many)
-    for one, other in zip(alone, many, strict=True):
+    for one, other in spread(zip(alone, many, strict=True), 2):
         for name in one.outline("analyze").quantities:
             exact = {"abs": 1e-7} if name.endswith("_at") else {"rel": 1e-9}
             expected = one.raw(name)

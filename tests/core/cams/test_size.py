@@ -178,6 +178,7 @@ def test_smallest_cam_of_the_example() -> None:
     assert places == pytest.approx((numbers["theta_minus_deg"], numbers["theta_plus_deg"]), abs=1e-4)
 
 
+@pytest.mark.slow
 def test_mirrored_machine_has_the_mirrored_cam() -> None:
     def mirrored(theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         psi, rate = rocker_law(theta)

@@ -121,6 +121,7 @@ def test_seam_of_a_closed_profile() -> None:
     assert found.depth == pytest.approx(2.0 * (25.0 - math.sqrt(404.0)), abs=DEPTH)
 
 
+@pytest.mark.slow
 def test_circle_is_cut_only_past_its_centre() -> None:
     def circle(radius: float):  # type: ignore[no-untyped-def]
         return lambda t: (50.0 * np.exp(-1j * t), (50.0 - radius) * np.exp(-1j * t))
