@@ -211,7 +211,7 @@ def try_designs(kind: str, count: int, seed: int) -> Counter[str]:
     return statuses
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", KINDS)
 def test_no_collision_missed_and_no_false_alarm(kind: str) -> None:
     statuses = try_designs(kind, 40, seed=1)
