@@ -12,7 +12,7 @@ import pytest
 from factory import design
 from pydantic import ValidationError
 from scipy.optimize import minimize_scalar
-from sweeps import mostly_slow
+from sweeps import ALL, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
@@ -174,7 +174,7 @@ def test_a_swing_that_is_too_wide_has_a_limit() -> None:
 def test_what_is_refused_does_not_exist() -> None:
     """Swings and ratios drawn at random: where the closed form finds none, no coupler over crank gives one either."""
     rng, refused = random.Random(5), 0
-    for _ in range(60):
+    for _ in range(60 if ALL else 20):
         angle, ratio, same = rng.uniform(5.0, 170.0), rng.uniform(1.01, 4.0), rng.random() < 0.5
         p, q = half_angles(math.radians(angle), ratio, same)
         try:
@@ -191,7 +191,7 @@ def test_what_is_refused_does_not_exist() -> None:
                     assert not there, (angle, ratio, same, i)
         else:
             assert linkage.kind() == "crank-rocker"
-    assert 5 < refused < 55
+    assert (5 if ALL else 2) < refused < (55 if ALL else 18)
 
 
 # Three pairs
