@@ -83,6 +83,7 @@ def test_quantities_by_close_places() -> None:
     assert design.least_wall_factor == pytest.approx(min(factors), rel=1e-7)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("x", [48.0, 60.0])
 def test_how_far_a_wall_on_the_cylinder_lies_from_its_development(x: float) -> None:
     """The point of a wall whose distance from the axis is x, sought along the roller, against the developed line."""
