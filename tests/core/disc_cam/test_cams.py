@@ -82,6 +82,7 @@ STEPS = {
 }
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("rocks", [False, True])
 @pytest.mark.parametrize("course", STEPS)
@@ -107,6 +108,7 @@ def test_a_face_is_undercut_where_its_velocity_steps_down(course: str, rocks: bo
         assert design.quantity("min_curvature_radius").value == 0.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("radius", [50.0, 300.0, 2000.0])
 def test_a_roller_cuts_where_its_velocity_steps_down_however_large_the_cam(radius: float) -> None:
     """Where the pitch curve turns by d, the roller behind cuts r (1 - cos d) off the profile before; straight branches,
@@ -130,7 +132,7 @@ def test_published_flat_cam() -> None:
     assert design.max_pressure_angle == 0.0
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("limits", [30, [25, 45], [50, 20]])
 @pytest.mark.parametrize("offset", [0, 7.5, "best"])
@@ -183,6 +185,7 @@ def test_the_cutter_of_a_flat_cam_touches_it_and_is_exported() -> None:
     assert list(follower_cam(cam(MOTION, {"type": "translating-flat"}, {"base_radius": 80}))) == ["main_cam"]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_least_cam_of_a_rocker_by_a_search(sense: int, side: int) -> None:
@@ -194,7 +197,7 @@ def test_the_least_cam_of_a_rocker_by_a_search(sense: int, side: int) -> None:
     assert math.degrees(smaller.max_pressure_angle) > 40.0
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("sense", [1, -1])
 def test_a_found_pivot_needs_the_smallest_cam(sense: int) -> None:
     free = {key: value for key, value in ROCKER.items() if key != "center_distance"}
@@ -211,7 +214,7 @@ def test_a_found_pivot_needs_the_smallest_cam(sense: int) -> None:
         assert radius > design.prime_radius
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize(("rise", "back"), [(35.0, 45.0), (45.0, 35.0), (25.0, 70.0)])
 def test_a_found_pivot_keeps_a_limit_of_each_stroke(sense: int, rise: float, back: float) -> None:
@@ -334,7 +337,7 @@ CONJUGATE = {
 }
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", list(CONJUGATE))
 def test_a_conjugate_pair_is_sized_by_both_rollers(name: str) -> None:
     """Each cam keeps the pressure angle and 0.8 of its own curvature radius; one of them stands at a limit."""
@@ -373,6 +376,7 @@ def test_loads_know_where_segments_join() -> None:
         assert np.abs(found - end).min() < 1e-10
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("cam", "code", "key"),
     [

@@ -152,7 +152,7 @@ PAIRS = [
 ]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize(("profile", "follower"), PAIRS)
 def test_the_lift_is_that_of_a_follower_that_is_let_down_on_the_outline(
@@ -168,6 +168,7 @@ def test_the_lift_is_that_of_a_follower_that_is_let_down_on_the_outline(
         assert lift == pytest.approx(let_down(points, phi, sense, found, follower) - start, abs=1e-5), degrees
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(("profile", "follower"), PAIRS)
 def test_the_profile_of_the_motion_is_the_outline(profile: dict[str, Any], follower: dict[str, Any]) -> None:
     design = cam(profile, follower)
@@ -218,7 +219,7 @@ def arc_of(found: Contour, lead: Any, name: str, behind: bool) -> tuple[Any, Any
     return None, (found.base - found.flank) * normal, found.flank
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("profile", "follower"), PAIRS)
 def test_derivatives_are_those_of_the_place_by_30_digits(profile: dict[str, Any], follower: dict[str, Any]) -> None:
     """The place is the root of a distance from the centre of the arc, or from the line, found for each cam angle."""
@@ -368,7 +369,8 @@ def test_everything_of_a_cam_follows_from_its_arcs() -> None:
     radii = design.table("main_cam", samples=720)["curvature_radius"]
     for wanted in (27.5, -132.5, 47.5):
         assert (np.abs(radii / wanted - 1.0) < 1e-9).sum() > 10
-    assert {check.status for check in design.report("cam").checks} <= {"pass", "warn", "fail"}
+    for name in design.outline("cam").checks:
+        assert {check.status for check in design.check(name)} <= {"pass", "warn", "fail"}, name
 
 
 @pytest.mark.parametrize(

@@ -170,6 +170,7 @@ class Bump:
         return [self.width ** (6 - n) * cube.deriv(n)(x) if n else self.width**6 * cube(x) for n in range(order + 1)]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("interval", "count"), [(0, 8), (3, 8), (7, 8), (2, 3600), (1802, 3600)])
 def test_a_servo_table_errs_by_what_lies_between_two_rows(interval: int, count: int) -> None:
     """(b/2)^6 in the middle, also where 2048 points about the turn leave the interval out."""

@@ -11,6 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from sweeps import spread
 
 from gearlink.cli.export.contour import JOIN
 from gearlink.cli.export.parts import follower_cam
@@ -104,13 +105,13 @@ def test_the_smallest_cam_keeps_the_pressure_angle_and_none_smaller_does(offset:
     assert math.degrees(design.max_pressure_angle) == pytest.approx(28.0, rel=1e-9)
     assert design.prime_radius is None
     beside = [found] if offset != "best" else [found + 0.05 * k for k in range(-40, 41)]
-    for e in beside:
+    for e in spread(beside, 9):
         smaller = edge({**SLIDE, "offset": e}, cam={"base_radius": radius - 0.01})
         assert math.degrees(smaller.max_pressure_angle) > 28.0
 
 
 def test_a_sized_radius_of_curvature_is_kept_and_may_be_omitted() -> None:
-    for follower in (SLIDE, {**ROCKER, "center_distance": 110.0}, {**ROCKER, "center_distance": None}):
+    for follower in spread([{**ROCKER, "center_distance": 110.0}, {**ROCKER, "center_distance": None}, SLIDE], 1):
         loose, tight = (
             edge(follower, cam={"size": {"pressure_angle": 50, **more}}) for more in ({}, {"curvature_radius": 60})
         )
