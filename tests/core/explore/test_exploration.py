@@ -335,7 +335,9 @@ def test_a_range_that_ends_with_its_key_is_not_to_be_extended() -> None:
     cam, pair = factory.worked("lift_cam"), factory.worked("gear_pair")
     for low, told in ((0, 0), (5, 1)):
         shaft = {"cam.shaft_radius": {"from": low, "to": 10, "step": 5}}
-        thin = study(design=cam, command="cam", variables=shaft, minimize={"max_radius": 0.1})
+        thin = study(
+            design=cam, command="cam", variables=shaft, minimize={"max_radius": 0.1}, checks={"must_pass": "none"}
+        )
         assert len(list(thin.check("range-end"))) == told
     teeth = {"teeth[1]": {"from": 60, "to": 62, "step": 1}}
     few = study(design=pair, command="gear", variables=teeth, minimize={"reference_center_distance": 0.1})

@@ -44,6 +44,7 @@ def test_an_end_of_the_range_is_reached_and_never_left(requirement: str, end: fl
     assert 130.0 <= best(found) <= 180.0
 
 
+@pytest.mark.slow
 def test_the_best_within_a_range_is_that_of_a_fine_grid() -> None:
     """A maximum value inside: the transmission angle is best where neither dead centre is nearer than the other."""
     found = study(maximize={"min_transmission_angle": 1e-6})
