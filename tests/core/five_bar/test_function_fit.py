@@ -166,6 +166,7 @@ def test_slopes_of_the_squares_are_those_of_differences() -> None:
         assert found[..., i] == pytest.approx(slope, rel=1e-8, abs=1e-8 * float(np.abs(misses).max()))
 
 
+@pytest.mark.slow
 def test_corrected_steps_follow_a_curved_valley(monkeypatch: pytest.MonkeyPatch) -> None:
     """Slopes alone say that extremes stay level which the bend of the errors raises; steps then shrink to nothing."""
     found = []

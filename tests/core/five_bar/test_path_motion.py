@@ -307,6 +307,7 @@ def test_fit_never_loses_to_its_start_and_keeps_its_limits():
     assert fit.distance == pytest.approx(sampled, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_fit_is_the_same_at_any_scale():
     """A power of two changes no digit: a search that took another way would end elsewhere in its flat minimum."""
     targets = np.array([-10 + 60j, 10 + 70j, 30 + 75j, 50 + 70j, 60 + 55j])

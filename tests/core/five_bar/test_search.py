@@ -130,7 +130,7 @@ def test_fit_is_kept_to_its_limit_and_repeatable(ratio, targets, degrees, known)
     assert (again.bar, again.offset) == (fit.bar, fit.offset)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", mostly_slow([Fraction(2), Fraction(-1, 2), Fraction(-3)], 2))
 def test_a_path_that_exists_is_found_whatever_the_ratio(ratio):
     true = PathFiveBar(17.0, 66.0, 60.0, 14.0, 50.0, ratio, math.radians(40.0))

@@ -9,6 +9,7 @@ from typing import Any
 
 import factory
 import pytest
+from sweeps import spread
 
 from gearlink.core.base.spec_paths import number_at
 from gearlink.core.studies.explore.base import Base, single, singles
@@ -29,7 +30,7 @@ def test_five_bars_of_a_study_are_those_of_each_alone(name: str) -> None:
     codes, spec = list(base.codes), base.spec()
     rows = [[(key, float(number_at(spec, key)) * (1.0 + 1e-4 * ((i * (k + 2)) % 9))) for k, key in
              enumerate(VARIED[name])] for i in range(9)]  # fmt: skip
-    for row, many in zip(rows, singles(base, rows, names, codes), strict=True):
+    for row, many in spread(zip(rows, singles(base, rows, names, codes), strict=True), 2):
         alone = single(base, row, names, codes)
         assert alone.refused == many.refused == ""
         for each, value in alone.values.items():
