@@ -160,7 +160,7 @@ def press_table(design, samples):
     return design.table("main_cam", samples=samples).rows()
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ZONES)
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 def test_scale(name, k):

@@ -78,7 +78,7 @@ def test_start_of_the_bed_chain(name):
     assert bed.initial_crank_angle == pytest.approx(float(press.crank_start), abs=1e-14)
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", PRESSES)
 @pytest.mark.parametrize("what", ["cam_angle", "bed", "cylinder", "difference"])
 def test_travel_and_derivatives_against_the_cosine_rule(name, what):

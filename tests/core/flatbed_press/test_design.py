@@ -125,7 +125,7 @@ def test_least_transmission_angle_stands_with_the_crank_on_the_frame(name):
         assert found == pytest.approx(float(min(min(g, mp.pi - g) for g in gammas)), abs=1e-14)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", PRESSES)
 def test_zone_quantities_against_the_oracle(name):
     oracle = PRESSES[name]

@@ -53,6 +53,7 @@ def test_given_teeth_shift_the_input_gears(teeth: int) -> None:
     assert own[5.0] == math.floor(distance / 5.0)
 
 
+@pytest.mark.slow
 def test_input_gears_are_cut_once() -> None:
     """Samples of the axes' distance have the teeth, shifts and tips of the nominal gears, as those of a gear-pair.
 

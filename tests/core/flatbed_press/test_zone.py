@@ -55,7 +55,7 @@ def test_report_takes_the_first_equality_and_not_a_later_one():
     assert round(math.degrees(equal_speed_angle(*chains(TY460)))) == 34
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", PRESSES)
 def test_start_and_end_against_the_cosine_rule(name):
     press = PRESSES[name]
@@ -110,7 +110,7 @@ def tangent():
         return radius_of_tangency()
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [1e-3, 1e-5, 1e-7, 1e-9, 1e-11])
 def test_nearly_double_equality_is_not_stepped_over(tangent, share):
     radius, phi = tangent
@@ -212,6 +212,7 @@ def test_equal_speeds_against_a_fine_grid(name):
         assert grid[i] <= phi <= grid[i + 1]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("initial", "radius"),
     [
