@@ -10,6 +10,7 @@ import random
 
 import pytest
 from factory import design
+from sweeps import ALL
 
 from gearlink.core.parts.gears.codes import AT_LIMITS
 
@@ -59,7 +60,7 @@ def in_the_plane(made, off):
 @pytest.mark.parametrize("ring", [False, True])
 def test_what_fails_at_the_limits_alone_is_told(ring):
     rng, seen = random.Random(11 + ring), dict.fromkeys(("GL203", "GL204", "GL205"), 0)
-    for _ in range(250):
+    for _ in range(250 if ALL else 120):
         data = drawn(rng, ring=ring)
         made = design(data, command="gear")
         if made.gear_pair.interference_margin[1] < 0.0 and ring:
@@ -77,9 +78,7 @@ def test_what_fails_at_the_limits_alone_is_told(ring):
         assert told - nominal == wanted - nominal, data
         for code in wanted:
             seen[code] += 1
-    assert seen["GL203"] > 5
-    assert seen["GL205"] > 5
-    assert seen["GL204"] > 5
+    assert min(seen.values()) > (5 if ALL else 1)
 
 
 def test_a_drawing_of_usual_fits_says_nothing():

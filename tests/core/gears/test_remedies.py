@@ -85,7 +85,7 @@ INSIDE = {key: value for key, value in LOADED.items() if key not in ("kind", "mo
 }
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("data", "keys"),
     [
@@ -116,6 +116,7 @@ def statuses_of(made: Any) -> dict[str, str]:
     return {check.name: check.status for name in made.outline("gear").checks for check in made.check(name)}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("keys", "path"),
     [

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sweeps import ALL
 
 import gearlink
 from gearlink.core.base.errors import NoSolution
@@ -159,7 +160,7 @@ def test_a_corner_in_a_fillet_is_found(given: dict[str, Any], gear: int, status:
 def test_many_pairs_are_left_to_the_class_where_a_corner_may_cut() -> None:
     """None that cuts is missed, and few others are looked at again."""
     rng = np.random.default_rng(3)
-    count = 400
+    count = 400 if ALL else 160
     shifts, angle = rng.uniform(-0.1, 1.0, (2, count)), np.radians(rng.uniform(10.0, 25.0, count))
     clearance, teeth = rng.uniform(0.1, 0.3, count), rng.integers(20, 80, (2, count)).astype(float)
     many = GearPairs(
@@ -189,6 +190,6 @@ def test_many_pairs_are_left_to_the_class_where_a_corner_may_cut() -> None:
             assert not cuts[k]
         if cuts[k]:
             assert gaps[k] == pytest.approx(single.least.gap, abs=1e-12)
-    assert 10 < cuts.sum() <= (told & cuts).sum()
+    assert count // 40 < cuts.sum() <= (told & cuts).sum()
     assert told.sum() < 2 * cuts.sum() + 40
-    assert in_tool > 100
+    assert in_tool > count // 4

@@ -61,7 +61,7 @@ def outside_tool(gear, points, roll):
     return distance - rho
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("teeth", "shift"),
     [(12, 0.0), (17, 0.0), (18, 0.0), (8, 0.0), (7, 0.3), (40, 0.0), (30, 1.2), (40, -1.0), (9, 0.5)],

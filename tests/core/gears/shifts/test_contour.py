@@ -73,7 +73,7 @@ def test_shifts_whose_corners_cut_into_fillets_are_not_free() -> None:
     assert found.is_free(shortened)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "keys",
     [

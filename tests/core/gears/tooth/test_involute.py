@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sweeps import examples
+from sweeps import ALL, examples
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh import pair_sweep
@@ -60,7 +60,7 @@ def test_involute_against_many_digits(low, high):
 @pytest.mark.parametrize(("low", "high"), DECADES)
 def test_inverse_against_many_digits(low, high):
     rng = random.Random(2)
-    values = [10.0 ** rng.uniform(low, high) for _ in range(40)]
+    values = [10.0 ** rng.uniform(low, high) for _ in range(40 if ALL else 15)]
     truth = [exact_inverse(v) for v in values]
     assert max(ulps(inverse_involute(v), t) for v, t in zip(values, truth, strict=True)) <= 2.0
     sweep = pair_sweep.inverse_involute(np.array(values))

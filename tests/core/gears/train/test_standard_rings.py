@@ -37,6 +37,7 @@ def some():
         )
 
 
+@pytest.mark.quick(20)
 @pytest.mark.parametrize(("planet", "ring", "degrees", "module"), list(some()))
 def test_thickness_and_fillet_are_those_of_the_pair(planet, ring, degrees, module):
     """The pair fails what the machine, whose file says nothing of its tools, is warned of."""
