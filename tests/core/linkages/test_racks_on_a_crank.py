@@ -114,6 +114,7 @@ TURNING: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", TURNING)
 @pytest.mark.parametrize("speed", [60.0, -60.0])
 def test_a_rack_loses_by_the_rolling_of_its_pinion(name: str, speed: float) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from axes import SOAK, agree, bits_stand_alone, by_path, sampled
 from factory import design
+from sweeps import spread
 
 from gearlink.core.machines.slider_crank.axis import axis
 from gearlink.core.parts.linkages.slider_crank import slider_sweep
@@ -54,7 +55,9 @@ def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: i
     agree(sampled(base, "analyze", variables, quantities, count))
 
 
-@pytest.mark.parametrize("count", [2048, pytest.param(131072, marks=pytest.mark.stress)])
+@pytest.mark.parametrize(
+    "count", [512, pytest.param(2048, marks=pytest.mark.slow), pytest.param(131072, marks=pytest.mark.stress)]
+)
 def test_sizes_of_many(count: int) -> None:
     agree(sampled(BASE, "analyze", {**LENGTHS, "stroke": {"from": 5, "to": 1200}}, SIZES, count))
 
@@ -89,7 +92,7 @@ def test_acceleration_that_peaks_on_both_sides_of_the_dead_centre() -> None:
     many = made.evaluate({"rod": np.array(rods)})
     assert not many.unsure.any()
     phi = np.linspace(0.5 * np.pi - 0.6, 0.5 * np.pi + 0.6, 600_001)
-    for rod, value in zip(rods, many.quantities["acceleration_max"], strict=True):
+    for rod, value in spread(zip(rods, many.quantities["acceleration_max"], strict=True), 2):
         greatest = slider_sweep(phi, 150.0, rod, 0.0, 2)[2].max()
         alone = design({**BASE, "rod": rod, "offset": 0}, command="analyze").quantity("acceleration_max")
         assert alone is not None
