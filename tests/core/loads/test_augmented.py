@@ -250,7 +250,7 @@ def test_six_bars_against_the_augmented_system(name: str) -> None:
     _compare(Augmented(factory.design(SIX_BARS[name], command="loads"), 0.9))
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", [*(str(case["name"]) for case in CASES if "gears" in case["spec"]), *SIX_BARS])
 @pytest.mark.parametrize("speed", [70.0, -70.0])
 def test_friction_against_the_augmented_system(name: str, speed: float) -> None:
@@ -271,7 +271,7 @@ def test_friction_of_racks_against_the_augmented_system(degrees: float) -> None:
     _compare(Augmented(factory.design("loaded_press", command="loads", loads__friction=friction), np.radians(degrees)))
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("side", ["opposite", "same"])
 @pytest.mark.parametrize("speed", [70.0, -70.0])
 @pytest.mark.parametrize("phi", [0.6, 2.4, 4.1])

@@ -78,6 +78,7 @@ def test_press_without_directions_leaves_out_the_bearings_that_need_them() -> No
     assert design.raw("pin_D.peak") == pytest.approx(given.raw("pin_D.peak"), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_gear_that_is_driven_changes_the_mesh_not_the_torque() -> None:
     two, one = (factory.design("ty460", command="loads", loads={**PRESS["loads"], "drive_gear": k}) for k in (2, 1))
     assert one.input_torque_rms == pytest.approx(two.input_torque_rms, rel=1e-12)

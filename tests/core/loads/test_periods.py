@@ -92,7 +92,9 @@ def test_the_residual_of_a_step_against_an_integration(name: str, start: float, 
 
     # the ends themselves belong to the dwells
     inner = 1e-9
-    found = solve_ivp(rates, (first + inner, last - inner), [0.0, 0.0], rtol=1e-10, atol=1e-14, max_step=2e-3)
+    found = solve_ivp(
+        rates, (first + inner, last - inner), [0.0, 0.0], method="DOP853", rtol=1e-10, atol=1e-14, max_step=2e-3
+    )
     place, rate = found.y[:, -1]
     free = (rate + damping * frequency * place) / (frequency * math.sqrt(1.0 - damping**2))
     assert made.residual_amplitude == pytest.approx(math.hypot(place, free), rel=1e-6)

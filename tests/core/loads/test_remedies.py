@@ -65,9 +65,9 @@ def test_courses_that_say_nothing_or_two_things(data: dict[str, Any], words: str
 
 LESS = ("loads.roller.inertia", "loads.roller.bearing_moment")
 SKIDS: list[tuple[str, dict[str, Any], str]] = [
-    ("loaded_gripper", {"loads__roller__inertia": 0.012}, "loads.roller.inertia"),
-    ("loaded_cam", {"loads__roller": {"width": 20, "bearing_moment": 3.0}}, "loads.roller.bearing_moment"),
     ("loaded_cam", {"spring__preload": 1, "loads__roller": {"width": 20, "inertia": 0.001}}, "spring.preload"),
+    ("loaded_cam", {"loads__roller": {"width": 20, "bearing_moment": 3.0}}, "loads.roller.bearing_moment"),
+    ("loaded_gripper", {"loads__roller__inertia": 0.012}, "loads.roller.inertia"),
     ("loaded_press", {"loads__roller__preload": 0.0, "loads__roller__inertia": 0.001}, "loads.roller.preload"),
 ]
 

@@ -29,7 +29,7 @@ def in_rest(design: Any, cam: Any, internal: bool) -> tuple[float, float]:
     return force, math.sqrt(force * 206_000.0 / (2.0 * (1.0 - 0.09)) / (math.pi * 20.0 * radius))
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_pressure_of_the_rests_in_closed_form(layout: str) -> None:
     """Far rest on the arc of the working stroke's cam, near rest on the return stroke's; harder than either stroke."""

@@ -54,6 +54,7 @@ def spins(loads: Any, stroke: Any, k: Any) -> tuple[Any, Any]:
     return spin * loads.speed, (spin - turning["rocker"]) * loads.speed
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("base", ["wide_swing_twin_cam", "wide_swing_cycle", "wide_swing_oscillating_cam"])
 def test_speed_of_the_roller_by_the_contact_at_rest(base: str) -> None:
     loads = factory.design(base, command="loads", loads={"roller": {"width": 20}})
@@ -145,6 +146,7 @@ def test_pendulum_beside_gravity_of_another_direction_is_refused() -> None:
     assert "set loads.device_direction to 0" in str(refused.value.fix)
 
 
+@pytest.mark.slow
 def test_the_rollers_bear_a_torque_that_jumps_within_a_stroke() -> None:
     """As closely as one that does not: against the midpoint rule over 40000 rows a part, 1e-6 with a jump in one."""
     zones = [{"from": 3, "to": 17.3, "value": 60.0}]

@@ -164,7 +164,7 @@ def _least_force(made: Any, speed: float) -> float:
     return min(float(machine.reactions(each.pressing_angle(k)).unknowns["roller"][0].min()) for each, k in places)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "changes"),
     [

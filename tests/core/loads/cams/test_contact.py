@@ -159,6 +159,7 @@ def test_positive_drive_opens_where_the_preload_ends() -> None:
     assert loose[0] - loose[1] == pytest.approx(force, abs=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "section",
     [{"gravity": [0.0, -9.81]}, {"forces": [{"on": "output", "resistance": 30.0}]}, {}],
@@ -173,7 +174,8 @@ def test_a_roller_of_the_gripper_is_without_force_at_the_speed_of_lift_off(secti
     assert there.lift_off_speed == pytest.approx(speed, rel=1e-9)
 
 
-@pytest.mark.parametrize("load", [{}, {"gravity": [0.0, -9.81]}, {"forces": [{"on": "output", "torque": -150.0}]}])
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("load", [{"forces": [{"on": "output", "torque": -150.0}]}, {}, {"gravity": [0.0, -9.81]}])
 def test_the_spring_that_a_gripper_lacks_leaves_a_roller_without_force(load: dict[str, Any]) -> None:
     """With that torque, an empty section before, the least force of both rollers is 0; 1e-10 of some kN."""
     given = {"loads": {"roller": {"width": 30}, **load}}
