@@ -39,6 +39,7 @@ def alone(data: dict[str, Any], speed: float, **more: Any) -> Any:
     return design("loads", **{**data, **keys, "loads": section})
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("ratio", [1.0, 2.0, -1.0])
 @pytest.mark.parametrize("data", [cam(FEED, **SPRUNG), BAR, SLIDER], ids=lambda data: str(data["kind"]))
 def test_a_member_is_felt_as_in_its_own_file_times_its_ratio(data: dict[str, Any], ratio: float) -> None:
@@ -143,6 +144,7 @@ def test_members_at_another_speed_are_named_and_the_machines_speed_holds() -> No
     assert found.quantity("slow.input_torque_max").value == pytest.approx(float(want.max()), rel=1e-4)  # type: ignore[union-attr, arg-type]
 
 
+@pytest.mark.slow
 def test_members_that_add_nothing_are_among_the_first_results() -> None:
     bare = cam(FEED, follower={"mass": None})
     mixed = loads({"m": of(cam(FEED, **SPRUNG)), "light": of(bare), "other": of(bare)})

@@ -117,6 +117,7 @@ def test_a_relation_within_one_member_asks_for_another_motion_of_it() -> None:
 FIRST = ["feed.return_end before gripper.rise_start by 5", "gripper.rise_end before feed.rise_start by 5"]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("require", "fix"),
     [

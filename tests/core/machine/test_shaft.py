@@ -148,6 +148,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("stiffnesses", [STIFF, PIECES, [STIFF[0], PIECES[1]]])
 @pytest.mark.parametrize("mode", [0, 1])
 def test_a_shaft_that_is_stiffened_as_the_fix_says_is_off_its_critical_speeds(
