@@ -155,6 +155,7 @@ def test_energy_from_samples_is_that_of_the_load(friction: Any) -> None:
     assert np.abs(sampled.surplus(phi) - exact.surplus(phi)).max() <= 1e-12 * size
 
 
+@pytest.mark.slow
 def test_many_zones_take_few_rows() -> None:
     """400 zones that add up to one: the same energies as that one; 1e-12."""
     ends = np.linspace(30.0, 150.0, 401).tolist()
@@ -211,6 +212,7 @@ def test_how_near_it_is_to_locking_is_the_worst_of_all_turns() -> None:
     assert found.value == pytest.approx(worst, rel=0.03)  # beside a jump more than at any row
 
 
+@pytest.mark.slow
 def test_a_force_that_changes_sides_beside_a_jump_is_a_break() -> None:
     """On the return stroke the roller pulls for 0.06 deg before the rest, where the force jumps: less than a row.
 

@@ -34,6 +34,7 @@ def _pairs() -> Iterator[tuple[tuple[int, int], float]]:
         yield (one, -other - 30) if ring else (other, one), float(rng.uniform(0.5, 0.999))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("teeth", "efficiency"), list(_pairs()))
 def test_a_pair_gives_that_share_of_what_it_takes_whichever_gear_drives(
     teeth: tuple[int, int], efficiency: float
@@ -74,7 +75,7 @@ CHAINS: dict[str, tuple[tuple[str, str], ...]] = {
 KEYS: dict[str, dict[str, Any]] = {"ring_feed": {"links": {"crank": 23.5, "frame": 53.8}, "dwell": None}}
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("torque", [-18.0, 25.0])
 @pytest.mark.parametrize("speed", [90.0, -90.0])
 @pytest.mark.parametrize("name", CHAINS)
@@ -117,7 +118,7 @@ def test_two_meshes_in_line_have_the_square_of_one() -> None:
     assert mean[0.9] / mean[1.0] == pytest.approx(0.9**-2, rel=2e-4)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("speed", [60.0, -60.0])
 @pytest.mark.parametrize("friction", [{"meshes": 0.8}, {"joints": {"mesh_wheel": 0.8}}])
 def test_the_teeth_of_a_mutilated_gear_lose_too(speed: float, friction: dict[str, Any]) -> None:
@@ -139,6 +140,7 @@ def test_the_teeth_of_a_mutilated_gear_lose_too(speed: float, friction: dict[str
     assert lossy.power_identity <= 1e-12
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_six_bar", "two_gear_ring"])
 def test_the_check_of_power_sees_a_loss_on_the_wrong_gear(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """GL601: losses on the driving gear are 1/(2 - eta) instead of eta, (1 - eta)^2 of the power too few."""

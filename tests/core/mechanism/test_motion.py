@@ -93,7 +93,7 @@ def test_transmission_angles_at_the_pins_reach_the_minimum_that_is_judged(
 
 def test_transmission_angles_of_a_wide_swing_are_those_of_its_drive_and_its_rod() -> None:
     design = factory.design("wide_swing_slider_drive")
-    q = np.linspace(0.0, 2.0 * np.pi, 36001)
+    q = np.linspace(0.0, 2.0 * np.pi, 9001)
     found = vectors.transmission_angles(design.moving.at(q, 1), "CF")
     judged = design.motion.transmission_angles
     assert float(found["C"].min()) == pytest.approx(judged["drive"], abs=1e-6)

@@ -62,7 +62,7 @@ def _parts(link: Any) -> tuple[Rates[Any], Rates[Any]]:
     return link.origin, link.turn
 
 
-@pytest.mark.quick(12)
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_each_derivative_is_the_rate_of_the_one_below(name: str) -> None:
     design = _made(name)
@@ -82,7 +82,7 @@ def test_each_derivative_is_the_rate_of_the_one_below(name: str) -> None:
                 assert off.max() <= ROOM * max(np.abs(each).max() for each in part[k:]) + 1e-9, (link, i, k)
 
 
-@pytest.mark.quick(10)
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_lower_orders_give_the_same_and_no_more(name: str) -> None:
     """To the last bit. The press has one derivative at least, for the normals of its rollers."""

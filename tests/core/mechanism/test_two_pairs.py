@@ -86,6 +86,7 @@ def chosen(friction: Coefficients | None) -> tuple[Any, Any]:
     return found, count
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("friction", [None, SLIDING])
 @pytest.mark.parametrize("sides", SIDES)
 def test_columns_of_every_choice_of_sides(sides: tuple[bool, bool], friction: Coefficients | None) -> None:
