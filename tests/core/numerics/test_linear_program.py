@@ -12,6 +12,7 @@ from scipy.optimize import linprog
 from gearlink.core.numerics.linear_program import least
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("seed", range(20))
 def test_a_least_is_that_of_the_interior_point_method(seed: int) -> None:
     rng = np.random.default_rng(seed)
