@@ -30,7 +30,7 @@ def loaded(name: str, **more: Any) -> PlanarLoads:
     return PlanarLoads(made(name, loads=Section.model_validate(section)))
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", LOADS)
 def test_the_torque_is_that_of_virtual_power(name: str) -> None:
     assert loaded(name).power_identity < 1e-12
@@ -199,12 +199,14 @@ def test_a_slide_as_drive_has_no_loads() -> None:
     assert (refusal.value.code, refusal.value.key) == ("GL113", "drive.slide")
 
 
+@pytest.mark.slow
 def test_what_is_led_round_takes_no_torque_in_the_mean(designs: Path) -> None:
     """Inertia does no work over a revolution: parts of the mean end where the law of the cam changes."""
     opened: Any = opened_from(designs / "planar_cam.yaml", command="loads")
     assert abs(opened.raw("input_torque_mean")) < 1e-12 * opened.raw("input_torque_rms")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("dwells", [(150.0, 240.0), (150.0, 360.0), (90.0, 240.0)])
 def test_dwells_of_cams_are_those_of_a_disc_cam(dwells: tuple[float, float]) -> None:
     """The vibration of a lever on a cam, as either kind has it: two dwells, one of either, the last over the start.

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from oracles.planar import motion
 from oracles.planar_zoo import FOUR_BAR, WATT, ZOO, made
-from sweeps import ALL, mostly_slow
+from sweeps import ALL, mostly_slow, spread
 
 from gearlink.cli.opening import design, load
 from gearlink.core.base.errors import NoSolution
@@ -128,6 +128,7 @@ def test_extremes_against_dense_rows(name: str) -> None:
         assert again == pytest.approx(value, abs=1e-11 * size)
 
 
+@pytest.mark.slow
 def test_quick_return() -> None:
     """Of a slotted lever, whose strokes end where it touches the circle of the crank pin; None without two strokes."""
     design = planar("quick-return", outputs=["lever", "slot", "crank"])
@@ -186,6 +187,7 @@ def test_a_cylinder_jams_where_rod_and_lever_are_in_line() -> None:
         assert abs(complex(-200.0, -10.0) + (20.0 + found) * way) == pytest.approx(distance, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_the_assembly_is_never_changed() -> None:
     """A rocker that nearly stretches, by some hundredths of a degree: the dyad keeps its side."""
     design = planar("four-bar", links={**FOUR_BAR["links"], "rocker": ["D", "C", 56.935]})
@@ -229,6 +231,7 @@ def test_refusals(change: dict[str, Any], key: str, words: str, monkeypatch: pyt
     assert refusal.value.key == key
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("length", [30.0, 45.0, 52.7])
 def test_the_range_between_dead_centres_is_free_as_it_is_printed(length: float) -> None:
     links = {**FOUR_BAR["links"], "rocker": ["D", "C", length]}
@@ -236,7 +239,7 @@ def test_the_range_between_dead_centres_is_free_as_it_is_printed(length: float) 
         planar("four-bar", links=links).require("analyze")
     low, high = map(float, re.findall(r"range.start to (\S+) and range.end to (\S+) deg", refusal.value.fix)[0])
     planar("four-bar", links=links, range={"start": low, "end": high}).require("analyze")
-    for wrong in ({"start": low - 0.01, "end": high}, {"start": low, "end": high + 0.01}):
+    for wrong in spread([{"start": low - 0.01, "end": high}, {"start": low, "end": high + 0.01}], 1):
         with pytest.raises(NoSolution, match="set range"):
             planar("four-bar", links=links, range=wrong).require("analyze")
 
@@ -304,6 +307,7 @@ def test_a_differential_of_two_drives() -> None:
     assert (made_.raw("period_turns"), made_.raw("arm.turns")) == (8, 5.0)
 
 
+@pytest.mark.slow
 def test_a_certain_step_leads_where_many_small_ones_do() -> None:
     """From every tenth certified place to the next, in one step and in thirty: the same to rounding."""
     course = planar("watt").course

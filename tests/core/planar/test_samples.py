@@ -64,7 +64,7 @@ SAMPLED = ZOO | {"geared": GEARED}
 
 @pytest.mark.parametrize(
     "name",
-    mostly_slow(["four-bar", "rack-on-link", "geared", "cylinder", "quick-return", "watt", "slide-on-lever"], 2),
+    mostly_slow(["four-bar", "rack-on-link", "geared", "cylinder", "quick-return", "watt", "slide-on-lever"], 1),
 )
 def test_samples_at_once_are_those_of_the_class(name: str) -> None:
     """Every quantity within 1e-9 of its magnitude, and each verdict; places of flat extremes to 1e-6."""
@@ -307,8 +307,8 @@ def with_cam(file: dict[str, Any], **more: Any) -> dict[str, Any]:
 CAMS = {
     "sliding roller": with_cam(SLIDING, roller_radius=9, sense=-1),
     "sliding face": with_cam(SLIDING, face=90),
-    "rocking roller": with_cam(ROCKING, roller_radius=12, phase=20),
     "rocking face": with_cam(ROCKING, face=4),
+    "rocking roller": with_cam(ROCKING, roller_radius=12, phase=20),
 }
 
 
@@ -320,6 +320,7 @@ def row_of(file: dict[str, Any]) -> tuple[PlanarMechanism, Any]:
     return made_, System(len(made_.structure.bodies), (), (row,))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", CAMS)
 def test_the_row_of_a_cam_as_cut_is_the_gap_to_its_profile(name: str) -> None:
     """Along any motion of cam and follower near the start: the roller's nearest point of a dense profile, the face's

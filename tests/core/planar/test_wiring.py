@@ -49,6 +49,7 @@ SLIDER_CRANK: dict[str, Any] = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("outputs", "shown"),
     [
