@@ -14,6 +14,7 @@ from pathlib import Path
 import factory
 import numpy as np
 import pytest
+from sweeps import ALL
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
@@ -96,7 +97,7 @@ def pitch_point_standstills(linkage, ratio):
 
 def test_standstills_against_the_cubic_of_the_pitch_point():
     seen = set()
-    for linkage, share in random_linkages(150, 3):
+    for linkage, share in random_linkages(150 if ALL else 50, 3):
         ratio = -share if linkage.kind() == "drag-link" else 0.3 + 0.2 * share
         drive = PlanetLinkage(linkage, ratio, "crank")
         extremes = turnings(drive.speed, drive.acceleration)
@@ -220,6 +221,7 @@ def test_reference_rocker():
     assert made.naive_multiple == out["naive_1_plus_q"]
 
 
+@pytest.mark.slow
 def test_swing_against_a_search_for_the_extremes():
     for linkage, share in random_linkages(60, 11):
         if linkage.kind() != "crank-rocker":

@@ -21,6 +21,7 @@ import mpmath
 import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
+from sweeps import ALL
 
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
@@ -124,7 +125,7 @@ def test_the_number_of_standstills_changes_at_the_momentary_dwell_alone(family: 
 def test_each_output_gear_stands_in_one_class_of_linkage_alone() -> None:
     """A sun never in a crank-rocker, a ring gear never in a drag link: random links and gears."""
     draw, seen = random.Random(2), {"crank-rocker": 0, "drag-link": 0}
-    while min(seen.values()) < 60:
+    while min(seen.values()) < (60 if ALL else 20):
         linkage = FourBar(*(math.exp(draw.uniform(0.0, 2.0)) for _ in range(4)))
         kind = linkage.kind()
         if kind not in seen:
@@ -147,6 +148,7 @@ def test_back_step_and_window_rise_towards_the_change_point(family: Family) -> N
     assert family.drive(quiet + 1e-6 * (quiet - steep)).back_step is None
 
 
+@pytest.mark.slow
 def test_a_window_is_found_whatever_the_momentary_dwell_rounds_to() -> None:
     """The search starts at the momentary dwell, where a back-step of rounding may end above its start."""
     for coupler, rocker, teeth in ((64.0, 76.61909275997998, 78), (55.91474905081777, 84.52689629494145, 76)):
@@ -183,6 +185,7 @@ def test_tolerance_dwell_against_a_scan(family: Family, tolerance: float, share:
     assert max(inside) - min(inside) <= math.radians(2.0 * tolerance) * (1.0 + 1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("family", [SUN, RING])
 def test_no_frame_has_a_longer_window_than_the_one_whose_back_step_fills_the_band(family: Family) -> None:
     tolerance = 0.5
@@ -347,7 +350,7 @@ def test_dwell_design(data: dict[str, Any]) -> None:
     assert [check.status for check in bare.check_dwell_edge()] == ["warn"]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("data", [SUNS, RINGS])
 @pytest.mark.parametrize("tolerance", [1e-6, 0.5, 5.0])
 def test_window_as_long_as_the_limit(data: dict[str, Any], tolerance: float) -> None:
@@ -380,6 +383,7 @@ def test_where_the_least_speed_of_the_momentary_dwell_rounds_to_either_side(
         assert math.degrees(design.back_step_angle) == pytest.approx(section["back_step"]["angle"], rel=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("degrees", [0.01, 0.1, 1.0])
 def test_short_windows_keep_their_digits(degrees: float) -> None:
     """A window is as uncertain as the root of the frame: 1e-15 of it over the share that the window leaves, squared."""
@@ -438,6 +442,7 @@ def test_a_tolerance_that_no_back_step_fills_is_met_the_better() -> None:
         assert dwell.crank_angle > math.radians(65.87), frame
 
 
+@pytest.mark.slow
 def test_frames_end_where_the_window_becomes_too_short() -> None:
     """At the far change point this output rests about one extreme for as long: the frames before it do not meet it."""
     links = {"coupler": 72.936, "rocker": 64.056}
