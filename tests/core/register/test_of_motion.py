@@ -91,8 +91,11 @@ WITHOUT_MESH = (
     "planar_quick_return",
     "planar_cam",
 )
-SLOW, FOLLOWED = pytest.mark.slow, ("planar_watt", "planar_five_bar", "planar_bed_chain", "planar_quick_return")
-DEAR = ("five_bar_function", "planar_bed_chain")
+SLOW, FOLLOWED = (
+    pytest.mark.slow,
+    ("planar_watt", "planar_cam", "planar_five_bar", "planar_bed_chain", "planar_quick_return"),
+)
+DEAR = ("five_bar_function", "planar_bed_chain", "planar_watt")
 RADIUS = ("wide_swing_cycle", "planar_watt")
 
 
@@ -116,7 +119,7 @@ def some(made: MotionRegister, count: int = 11) -> Any:
     return np.linspace(given.start, given.end, count + 2)[1:-1] + 1e-3
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(11)
 @pytest.mark.parametrize("name", [pytest.param(name, marks=SLOW if name in DEAR else ()) for name in CASES])
 def test_the_whole_chain_goes_as_the_gains_but_for_squares(name: str) -> None:
     made = register(name)
@@ -165,6 +168,7 @@ def test_a_tilted_face_and_a_turned_cam_in_closed_form() -> None:
     assert found["cams.cam.phase"] == pytest.approx(slope, abs=1e-14)
 
 
+@pytest.mark.slow
 def test_limits_of_angles_are_not_in_millimetres() -> None:
     """The limit of a direction, in degrees, stood below mm; its gain is per degree."""
     table = register("planar_quick_return", ("slots.slot.direction", "frame.C[0]")).table("budget")
