@@ -35,7 +35,14 @@ def found(base: Any, command: str, name: str, **keys: Any) -> Check:
     ("base", "command", "name", "keys", "key"),
     [
         pytest.param("loaded_wide_swing", "loads", "residual-vibration", WARNED, "speed", marks=pytest.mark.slow),
-        ("wide_swing_slider_cam", "swing", "shaft-clearance", NEAR_SHAFT, "cam__center_distance"),
+        pytest.param(
+            "wide_swing_slider_cam",
+            "swing",
+            "shaft-clearance",
+            NEAR_SHAFT,
+            "cam__center_distance",
+            marks=pytest.mark.slow,
+        ),
         ("tangent_cam", "cam", "cam-undercut", TANGENT, "follower__roller_radius"),
         ("wide_swing_slider_cam", "cam", "cam-undercut", NEARER_MIDDLE, "cam__roller_radius"),
         ("tangent_cam", "cam", "cam-undercut", TANGENT | {"follower__roller_radius": 21.0}, "follower__roller_radius"),

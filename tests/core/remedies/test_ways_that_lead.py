@@ -70,6 +70,7 @@ def test_the_chain_that_fails_is_changed() -> None:
     assert repaired("ty460", check.remedy, "transmission-angle", "press", **keys)
 
 
+@pytest.mark.slow
 def test_the_input_gears_of_a_press_are_repaired() -> None:
     keys = {"input_gears__pressure_angle": 42}
     (check, *_) = failing(factory.design("ty460", command="gear", **keys), "gear", "tip-thickness")
