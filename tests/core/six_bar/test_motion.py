@@ -16,7 +16,7 @@ import pytest
 from factory import changed, design, worked
 from hypothesis import given
 from hypothesis import strategies as st
-from sweeps import examples, mostly_slow
+from sweeps import examples, mostly_slow, spread
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.trials import BUDGET
@@ -106,7 +106,7 @@ def test_transmission_is_the_acute_angle_of_the_dyad() -> None:
 def test_rates_against_forty_digits(name: str) -> None:
     machine = six_bar(name)
     bar = machine.bar
-    for phi in (0.7, 2.9, 5.1):
+    for phi in spread((0.7, 2.9, 5.1), 1):
         found = np.array(machine.course.rates(np.array([phi])))[:, :, 0]
         wanted = taylor(bar, phi, found[0])
         condition = 1.0 / math.sin(float(bar.transmission(found[0][:, None])[0]))

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from six_bars import SIX_BARS
+from sweeps import spread
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.six_bar.design import GearedSixBar
@@ -24,13 +25,13 @@ def _rows(data: dict[str, Any], count: int, by: float = 0.02) -> list[list[tuple
     return [[(key, value + by * ((i * (k + 2)) % count)) for k, (key, value) in enumerate(sizes)] for i in range(count)]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "more"), CASES)
 def test_six_bars_of_a_study_are_those_of_each_alone(name: str, more: dict[str, Any]) -> None:
     base = Base(FILES[name] | more, "analyze")
     names = [each for each in base.design().outline("analyze").quantities if base.design().raw(each) is not None]
     codes, rows = list(base.codes), _rows(base.data, 9)
-    for row, many in zip(rows, singles(base, rows, names, codes), strict=True):
+    for row, many in spread(zip(rows, singles(base, rows, names, codes), strict=True), 2):
         alone = single(base, row, names, codes)
         assert alone.refused == many.refused == ""
         for each, value in alone.values.items():
