@@ -134,6 +134,7 @@ def test_turning_the_whole_machine_changes_nothing(angle: float) -> None:
     assert abs(other.handover_center - moved) <= 1e-12
 
 
+@pytest.mark.slow
 def test_the_mirrored_machine_is_the_same_machine() -> None:
     other = mirrored()
     for name in ("handover_speed", "total_swing", "min_transmission_angle", "lift_off_speed", "max_pressure_angle"):

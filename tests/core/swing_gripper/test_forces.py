@@ -247,6 +247,7 @@ def test_a_spring_without_masses_is_not_judged() -> None:
     assert not [check for check in machine(inertia=None).report("gripper").checks if check.name == "lift-off"]
 
 
+@pytest.mark.slow
 def test_rollers_without_a_spring_are_told_a_torque_that_presses_them() -> None:
     bare = factory.design("loaded_gripper", command="loads", spring=None)
     assert "fail" in {check.status for check in bare.check("contact-loss")}

@@ -223,7 +223,7 @@ NAMED = {
 }
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("body", "axis"), NAMED)
 def test_a_gripper_that_had_passed_every_check(body: str, axis: str) -> None:
     """Grippers whose links sweep over a shaft, of which nothing was said."""

@@ -35,6 +35,7 @@ def test_any_one_phase_is_the_remainder(omitted: str) -> None:
     assert degrees(design, f"{omitted}_angle") == pytest.approx(whole[omitted], abs=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "command"), [("swing_gripper_stop", "gripper"), ("loaded_gripper", "loads")])
 def test_a_gripper_without_a_far_dwell_is_that_of_a_dwell_that_vanishes(name: str, command: str) -> None:
     """Each quantity against that with a dwell of 1e-9 deg, which moves the return by 1e-11 of its length: 1e-7.

@@ -93,6 +93,7 @@ def test_a_pivot_without_a_cam_moves_the_tip_through_the_loop_alone() -> None:
     assert np.abs(rolling["pins.A"])[1] < 0.5 * np.abs(rolling["pins.C"])[1]
 
 
+@pytest.mark.slow
 def test_samples_of_the_chain_are_the_budget() -> None:
     sizes = {key: one for key, one in SOURCES.items() if not key.startswith("pins")}
     more = {"cam_error": 0.01}

@@ -11,6 +11,7 @@ from typing import Any
 
 import factory
 import pytest
+from sweeps import spread
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.studies.explore.base import Base, single, singles
@@ -59,7 +60,7 @@ def test_designs_of_a_study_are_those_of_each_alone(varied: str) -> None:
     base, alone = _base(), _base()
     names, codes = _names(base), list(base.codes)
     rows = _rows(base, CHANGES[varied], 8)
-    for row, other in zip(rows, singles(base, rows, names, codes), strict=True):
+    for row, other in spread(zip(rows, singles(base, rows, names, codes), strict=True), 1):
         _compare(single(alone, row, names, codes), other)
 
 
@@ -117,7 +118,7 @@ def test_those_that_do_not_exist_leave_the_others_found_together() -> None:
     rows = [*_rows(base, LINKS, 9), *wrong]
     random.Random(2).shuffle(rows)
     found = singles(base, rows, names, codes)
-    for row, other in zip(rows, found, strict=True):
+    for row, other in spread(zip(rows, found, strict=True), 5):
         _compare(single(alone, row, names, codes), other)
     assert sum(bool(one.refused) for one in found) >= 3
     designs: list[Any] = [base.design(row) for row in rows]
@@ -138,7 +139,7 @@ def test_designs_of_several_laws_and_rollers() -> None:
     rows += [[("cam.return_roller", None), *row] for row in _rows(base, LINKS, 2)]
     random.Random(4).shuffle(rows)
     names, codes = ["max_pressure_angle", "lift_off_speed"], list(base.codes)
-    for row, other in zip(rows, singles(base, rows, names, codes), strict=True):
+    for row, other in spread(zip(rows, singles(base, rows, names, codes), strict=True), 3):
         _compare(single(alone, row, names, codes), other)
 
 
@@ -147,7 +148,7 @@ def test_laws_that_are_nearly_each_its_own_leave_designs_to_themselves() -> None
     base, alone = _base("swing_gripper"), _base("swing_gripper")
     rows: list[list[tuple[str, Any]]] = [[("laws.accelerate", {"quintic": 0.5 + 0.005 * k})] for k in range(10)]
     names, codes = ["max_pressure_angle", "lift_off_speed"], list(base.codes)
-    for row, other in zip(rows, singles(base, rows, names, codes), strict=True):
+    for row, other in spread(zip(rows, singles(base, rows, names, codes), strict=True), 3):
         _compare(single(alone, row, names, codes), other)
 
 
