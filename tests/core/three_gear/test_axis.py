@@ -249,7 +249,7 @@ def study(name: str, count: int) -> Problem:
 @pytest.mark.parametrize(
     "name", [name if name in QUICK_TASKS else pytest.param(name, marks=pytest.mark.slow) for name in TASKS]
 )
-@pytest.mark.parametrize("count", [32, pytest.param(512, marks=pytest.mark.slow), SOAK])
+@pytest.mark.parametrize("count", [16, pytest.param(512, marks=pytest.mark.slow), SOAK])
 def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count: int) -> None:
     # "window, unequal": of four in five designs (0.75 to 0.81 by the count) the class is asked
     agree(study(name, count), unsure=0.82 if name == "window, unequal" else 0.02)
@@ -290,7 +290,7 @@ def test_gaps_that_stand_at_their_limit_are_judged_at_once(
     agree(made, unsure=0.001)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["dwell", "window", "tolerance", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     bits_stand_alone(study(name, 1024))
@@ -364,7 +364,7 @@ RINGS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", RINGS)
 def test_teeth_beyond_the_form_give_what_the_class_gives(command: str) -> None:
     section, variables = RINGS[command]

@@ -114,7 +114,7 @@ def test_published_designs(name):
 
 
 def test_counting_signs_finds_the_same_standstills():
-    seen = check_against_counting(300 if ALL else 80, 7)
+    seen = check_against_counting(300 if ALL else 40, 7)
     assert seen == {(kind, n) for kind in ("crank-rocker", "drag-link") for n in (0, 2)}
 
 

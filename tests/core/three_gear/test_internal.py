@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from factory import changed, design, worked
 from pydantic import ValidationError
+from sweeps import ALL
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear import families, momentary
@@ -101,7 +102,7 @@ def arrangements(count: int, seed: int) -> list[tuple[FourBar, GearTrain, tuple[
 
 def test_standstills_against_sign_changes_of_the_speed() -> None:
     seen = 0
-    for linkage, train, _ in arrangements(125, seed=5):
+    for linkage, train, _ in arrangements(125 if ALL else 50, seed=5):
 
         def speed(phi: float, linkage: FourBar = linkage, train: GearTrain = train) -> float:
             return Output(linkage, train).speed(phi)
@@ -114,7 +115,7 @@ def test_standstills_against_sign_changes_of_the_speed() -> None:
         assert len(got) == len(want)
         seen += len(got) == 2
         np.testing.assert_allclose(np.sort(got), np.sort(want), rtol=0.0, atol=1e-11)
-    assert seen > 12
+    assert seen > (12 if ALL else 4)
 
 
 def test_extremes_of_a_linkage_with_equal_coupler_and_rocker_lie_on_the_frame_line() -> None:

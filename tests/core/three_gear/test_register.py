@@ -83,7 +83,7 @@ DRIVES = [
 ]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("given", DRIVES)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_gains_are_the_slopes_of_the_exact_chain(given: list[Any], sign: int) -> None:

@@ -83,7 +83,7 @@ def test_contract(case):
 # The task is met
 
 
-@pytest.mark.quick(11)
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize("task", TASKS)
 def test_analysis_of_the_links_finds_what_was_asked_for(task, assembly):
@@ -229,7 +229,7 @@ def keeps_the_limits(synth, sections, idler):
     return angle >= math.radians(limits.transmission_angle) and gap >= limits.gear_gap
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("limits", [{}, {"transmission_angle": 60.0}, {"gear_gap": 7.5}, {"transmission_angle": 20.0}])
 @pytest.mark.parametrize("task", TASKS)
 def test_idler_left_out_is_the_smallest_that_keeps_the_limits(task, limits):
