@@ -29,7 +29,8 @@ SMALL = {"sources": {"links.crank": {"plus_minus": 0.02}}, "samples": 64, "seed"
 
 
 def register(sources: dict[str, Any], **section: Any) -> Any:
-    data = CANDY | {"tolerance": {"sources": sources, "samples": 2**15}, "register": section}
+    samples = section.pop("samples", 2**15)
+    data = CANDY | {"tolerance": {"sources": sources, "samples": samples}, "register": section}
     return factory.design(data, command="register")
 
 
@@ -110,7 +111,8 @@ def test_parts_keep_their_limits_where_the_process_is_capable(law: dict[str, Any
     ],
 )
 def test_a_band_is_called_by_its_method(method: str, title: str, words: str) -> None:
-    report = register({"links.crank": {"plus_minus": 0.02}}, method=method, tolerance=1e-3).report("register")
+    source = {"links.crank": {"plus_minus": 0.02}}
+    report = register(source, method=method, tolerance=1e-3, samples=256).report("register")
     assert [each.title for each in report.key if each.quantity.name == "band"] == [title]
     (check,) = (each for each in report.checks if each.code == "GL520")
     assert words in check.message
@@ -151,6 +153,7 @@ def test_samples_of_the_chain_keep_the_band(law: dict[str, Any]) -> None:
     assert register(sources, method="mc").band == pytest.approx(register(sources).band, rel=0.01)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("method", ["rss", "worst"])
 @pytest.mark.parametrize("share", [0.9, 0.6, 0.3, 0.01])
 def test_the_advice_keeps_the_budget_where_it_is_followed(share: float, method: str) -> None:
@@ -193,6 +196,7 @@ def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
     assert found == [float(one[:, -1].max()) for one in here]  # 99.73 % of 64 are all of them
 
 
+@pytest.mark.slow
 def test_the_band_of_samples_is_that_of_the_place_where_the_errors_are_largest() -> None:
     """Thirteen even places missed it: 0.78 of the band of this cam, whose slopes are short."""
     sources = {"follower.roller_radius": {"plus_minus": 0.02}, "cam.profile": {"plus_minus": 0.02}}
@@ -245,6 +249,7 @@ def test_a_pin_that_floats_lies_anywhere_in_its_hole() -> None:
     assert gain * 0.0195 < sampled.band[0] < gain * 0.02  # the share 0.27 % of a disc lies beyond 0.98 of its radius
 
 
+@pytest.mark.slow
 def test_twist_of_a_shaft_counts_in_band_and_samples_alike() -> None:
     twist = {"stiffness": 500.0, "load": 3.0, "at": 100.0}
     one, other = (register({"links.crank": {"plus_minus": 0.002}}, method=m, **twist) for m in ("rss", "mc"))
@@ -255,6 +260,6 @@ def test_twist_of_a_shaft_counts_in_band_and_samples_alike() -> None:
 def test_samples_in_portions_keep_the_same_band(monkeypatch: pytest.MonkeyPatch) -> None:
     """Portions of 100 and of all: the same samples, closed by Newton's method to rounding."""
     sources = {"links.crank": {"plus_minus": 0.02}, "links.frame": {"limits": [-0.01, 0.05]}}
-    whole = register(sources, method="mc").band
+    whole = register(sources, method="mc", samples=512).band
     monkeypatch.setattr("gearlink.core.studies.register._AT_ONCE", 100)
-    assert register(sources, method="mc").band == pytest.approx(whole, rel=1e-9)
+    assert register(sources, method="mc", samples=512).band == pytest.approx(whole, rel=1e-9)
