@@ -13,6 +13,7 @@ from typing import Any
 import factory
 import numpy as np
 import pytest
+from sweeps import ALL
 
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.study.faults import WrongStudy
@@ -87,10 +88,10 @@ def test_draws_of_normal_parts_agree_with_their_closed_form() -> None:
 
 
 def test_a_search_of_many_parts_ends_near_the_cheapest_of_all_choices(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Too many choices to try all: of 40 random requirements none costs a tenth more than the cheapest of all."""
+    """Too many choices to try all: of some random requirements none costs a tenth more than the cheapest of all."""
     rng = random.Random(7)
     excess = []
-    for _ in range(40):
+    for _ in range(40 if ALL else 12):
         sizes = [rng.uniform(5.0, 400.0) for _ in range(rng.choice([3, 4, 5]))]
         graded = [Graded(rng.choice([4, 5]), rng.choice([10, 11]), rng.choice([0.3, 1.0, 3.0])) for _ in sizes]
         laws = [
@@ -109,7 +110,7 @@ def test_a_search_of_many_parts_ends_near_the_cheapest_of_all_choices(monkeypatc
         if every and some:
             assert some.reached >= 0.97
             excess.append(some.cost / every.cost)
-    assert len(excess) > 30
+    assert len(excess) > (30 if ALL else 8)
     assert max(excess) < 1.1
     assert np.mean(excess) < 1.005
 
@@ -129,10 +130,10 @@ def study(law: dict[str, Any], **section: Any) -> Any:
 )
 def test_grades_reach_the_target_under_every_law(law: dict[str, Any]) -> None:
     """And one grade coarser of any part does not, unless the table says that it holds."""
-    table = study(law).table_allocation()
+    made = study(law)
+    table = made.table_allocation()
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
     assert all(row["yield_low"] >= 0.99 for row in rows)
-    made = study(law)
     for changed in rows:
         if changed["grade"] == 11 or changed["one_coarser_holds"]:
             continue

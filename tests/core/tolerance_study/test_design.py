@@ -107,6 +107,7 @@ def test_play_of_pins_counts_in_the_worst_case() -> None:
     assert nominal + 0.8 * width < values.max() < found["greatest"]
 
 
+@pytest.mark.slow
 def test_where_no_corner_is_a_mechanism_there_is_no_worst_case() -> None:
     made = study(CANDY, sources={"links.crank": {"plus_minus": 36.0}}, samples=16)
     found = {row["quantity"]: row for row in rows(made.table_corners())}["back_step_angle"]
@@ -167,6 +168,7 @@ def test_cheapest_grades_are_those_of_all_choices() -> None:
     assert found.cost == pytest.approx(case["expected"][1], abs=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("low", "high"), [(20.2, 20.42), (20.22, 20.36), (None, 20.37), (20.24, None)])
 def test_capability_of_a_normal_quantity_is_that_of_its_deviation(low: float | None, high: float | None) -> None:
     """C_p = (U - L)/6 sigma, C_pk the nearer limit in 3 sigma: sigma of 40-digit slopes, quantiles of 2^13 samples."""
@@ -200,6 +202,7 @@ def test_allocation_reaches_its_target() -> None:
     assert all(5 <= row["grade"] <= 11 for row in found)
 
 
+@pytest.mark.slow
 def test_correlated_sources_scatter_together() -> None:
     """Both centre distances from one jig: their slopes add before they are squared."""
     sources = {"centers.crank_idler": {"plus_minus": 0.02}, "centers.idler_output": {"plus_minus": 0.02}}

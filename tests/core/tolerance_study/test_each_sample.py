@@ -130,7 +130,7 @@ def alone(made: Any, sizes: dict[str, float]) -> dict[str, bool] | None:
     return held
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", mostly_slow(list(STUDIES), 10))
 def test_a_sample_passes_what_it_passes_by_itself(name: str) -> None:
     study = STUDIES[name]
