@@ -314,6 +314,7 @@ cycle\
         design(changed(worked("wide_swing_cycle"), cycle=cycle))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("clearance", [0.0, 0.5])
 def test_the_free_sector_by_the_cam_angle(clearance: float) -> None:
     """Over the whole sector and the time, of which half of it is sought by the angle of the law."""
@@ -335,6 +336,7 @@ def test_the_free_sector_by_the_cam_angle(clearance: float) -> None:
         assert worst == pytest.approx(ratio.value, rel=1e-11)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("roller", [4.0, 40.0])
 def test_the_cut_by_the_cam_angle(roller: float) -> None:
     for closed in twin(cam__roller_radius=roller).cycle.contours.values():

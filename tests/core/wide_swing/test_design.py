@@ -709,6 +709,7 @@ def test_drive_is_judged_by_its_transmission_angle(links: tuple[float, ...], sta
     assert (check.code, check.status) == ("GL303", status)
 
 
+@pytest.mark.quick(9)
 @pytest.mark.parametrize("middle", [-200.0, -90.0, -61.0, 0.0, 13.0, 29.0, 31.0, 73.18, 149.0, 151.0, 270.0, 3600.0])
 @pytest.mark.parametrize("offset", [-40.0, 0.0, 25.0])
 def test_slider_rod_is_judged_over_the_swing(middle: float, offset: float) -> None:

@@ -172,6 +172,7 @@ def test_film_turns_the_cam_under_the_roller() -> None:
         assert np.all(beyond < aside**2 / (2.0 * roller) * rho[rows] / (rho[rows] - roller))
 
 
+@pytest.mark.slow
 def test_a_heavy_slider_is_judged() -> None:
     made = design("wide_swing_slider_cam", command="cam", slider__mass=1e6)
     assert "fail" in {check.status for name in made.outline("cam").checks for check in made.check(name)}

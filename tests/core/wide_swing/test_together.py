@@ -105,6 +105,7 @@ def test_cams_of_sliders_and_free_sectors_are_found_together() -> None:
         assert all("free" in vars(closed) for closed in design.cycle.contours.values())
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "widths"), [
     ("wide_swing_oscillating_cam", CAM),
     ("wide_swing_oscillating_cam", CAM | {"swing": 5.0}),
@@ -138,6 +139,7 @@ def test_designs_of_one_device_and_swing_share_their_law() -> None:
     assert len({id(design.motion.plain_law) for design in _found("wide_swing_twin_cam", LAW, "max_radius")}) == 9
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["wide_swing_slider_drive", "wide_swing_slider_cam", "wide_swing_oscillating_cam"])
 def test_forces_of_cams_that_are_not_symmetric_are_found_together(name: str) -> None:
     """The maximum of the force at many places, in the stroke and on the way home."""

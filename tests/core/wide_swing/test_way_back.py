@@ -96,6 +96,7 @@ def test_greatest_force_is_that_of_both_ways() -> None:
     assert design.contact_force == pytest.approx(home, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_no_reserve_holds_a_roller_where_its_device_has_no_torque() -> None:
     """The quotient of both torques has its pole in contact, to either side of which it grows as 1/distance; the
     lift-off speed was the rounding of the place of that pole."""
