@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sweeps import ALL
 
 LONG = np.longdouble
 LONGER_NUMBERS = pytest.mark.skipif(np.finfo(LONG).nmant < 63, reason="no longer numbers on this machine")
 
 EPS = 2.0**-52
-FEW, MANY = 400, int(os.environ.get("GEARLINK_DESIGNS", "100000"))
+FEW, MANY = 400 if ALL else 100, int(os.environ.get("GEARLINK_DESIGNS", "100000"))
 COUNTS = [FEW, pytest.param(MANY, marks=pytest.mark.stress)]
 
 
