@@ -93,6 +93,7 @@ def test_path_is_that_of_the_point_on_the_coupler() -> None:
         design(GIVEN).table("path")
 
 
+@pytest.mark.slow
 def test_range_of_a_linkage_that_does_not_turn() -> None:
     made = design(GIVEN, links=DOUBLE_ROCKER, range=[20.0, 60.0])
     table = made.table("motion", samples=40)

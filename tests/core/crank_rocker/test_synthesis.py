@@ -42,7 +42,7 @@ def swing(**keys: Any) -> Any:
 # Swing and time ratio
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("angle", [20.0, 55.0, 90.0, 120.0])
 @pytest.mark.parametrize("ratio", [1.001, 1.1, 1.3])
 @pytest.mark.parametrize("same", [True, False])
