@@ -132,7 +132,7 @@ def test_published_flat_cam() -> None:
     assert design.max_pressure_angle == 0.0
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("limits", [30, [25, 45], [50, 20]])
 @pytest.mark.parametrize("offset", [0, 7.5, "best"])
@@ -159,6 +159,7 @@ def test_a_sized_cam_lies_on_its_limit_and_no_smaller_one_keeps_it(sense: int, l
             assert excess(smaller * math.sin(rng.uniform(-1.4, 1.4)), smaller) > 0.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("offset", [0.0, 6.0])
 def test_the_curvature_of_a_sized_cam_is_its_limit(offset: float) -> None:
     size = {"pressure_angle": 60, "curvature_radius": 40}
@@ -376,7 +377,7 @@ def test_loads_know_where_segments_join() -> None:
         assert np.abs(found - end).min() < 1e-10
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cam", "code", "key"),
     [

@@ -60,7 +60,7 @@ def inside(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
 WAYS = [(follower, sense, side) for follower in (SLIDE, ROCKER) for sense in (1, -1) for side in (1, -1)]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("follower", "sense", "side"), WAYS)
 def test_the_edge_touches_its_cam_and_the_follower_behind_it_does_not(
     follower: dict[str, Any], sense: int, side: int
@@ -98,6 +98,7 @@ def test_pressure_angle_and_radius_are_those_of_the_path_by_40_digits(
         assert float(cam.curvature(np.array([phi]))[0]) == pytest.approx(float(kappa), rel=1e-10, abs=1e-13)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("offset", [0.0, 7.0, "best"])
 def test_the_smallest_cam_keeps_the_pressure_angle_and_none_smaller_does(offset: Any) -> None:
     design = edge({**SLIDE, "offset": offset}, cam={"size": {"pressure_angle": 28}})
@@ -120,6 +121,7 @@ def test_a_sized_radius_of_curvature_is_kept_and_may_be_omitted() -> None:
         assert tight.base_radius > loose.base_radius
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("follower", [SLIDE, {**ROCKER, "side": -1}])
 def test_a_jump_of_the_velocity_is_a_corner_of_the_profile(follower: dict[str, Any]) -> None:
     """The turns of the tangent on both sides of it, 1e-6 of a radian by chords of 1e-7."""

@@ -269,7 +269,7 @@ def test_a_follower_without_a_spring_is_told_a_preload_that_holds_it(follower: d
         assert (after.value > 0.0) is holds
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("follower", [FLAT, EDGE], ids=["flat", "edge"])
 def test_what_slides_on_the_cam_rubs(follower: dict[str, Any], sense: int) -> None:
