@@ -141,7 +141,7 @@ def test_widest_offset_against_sampling():
 RODS = [3.0 + 11.0 * i / 150 for i in range(151)]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [120.0, 90.0, 45.0])
 def test_minimax_and_least_ripple_against_a_scan(degrees):
     angle = math.radians(degrees)
