@@ -76,6 +76,7 @@ def angle(frame: float) -> float:
     return float(made.value)
 
 
+@pytest.mark.slow
 def test_conditions_hold_for_what_is_found() -> None:
     found = study(minimize={"frame_length": 0.001}, where=["frame_length >= 151.3 mm"])
     assert 151.3 <= best(found) <= 151.3 + 50.0 / 4096.0
