@@ -328,7 +328,7 @@ def test_cams_keep_the_limit_and_touch_it(limit):
     assert design.quantity("cam_base_radius").value == design.cam_base_radius
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("cam", [{}, {"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0}])
 @pytest.mark.parametrize("limit", mostly_slow([15.0, 40.0, 5.0, 20.0], 2))
 def test_sized_cams_pass_their_own_checks(limit, cam):

@@ -133,7 +133,7 @@ def derivatives(function, place):
     return [function(mp.mpf(place)), mp.diff(function, place), mp.diff(function, place, 2)]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ZONES)
 def test_zone_by_numerical_derivatives_over_the_cam_angle(name):
     lift = of(name, lead_in=10.0)
