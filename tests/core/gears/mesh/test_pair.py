@@ -219,6 +219,7 @@ def test_from_shift_against_many_digits():
         compare(pair, truth(pair.module, pair.teeth, pair.pressure_angle, 1.0, 0.25, shift=pair.given_shift))
 
 
+@pytest.mark.slow
 def test_from_center_distance_against_many_digits():
     rng = random.Random(4)
     for source in samples(150 if ALL else 60, 5):

@@ -235,7 +235,7 @@ def _free_turn(module, teeth, shifts, helix, distance, tips):
     return sum(room)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("helix", [0.0, 20.0])
 @pytest.mark.parametrize("name", ["sun", "ring"])
 def test_backlash_is_what_turned_teeth_leave(name, helix):
