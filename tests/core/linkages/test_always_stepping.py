@@ -130,7 +130,7 @@ def test_the_named_ones_are_there() -> None:
     assert len(named()) == 5
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 @pytest.mark.parametrize("share", [0.03, 0.7])
 def test_no_frame_has_a_longer_window(case: Case, share: float) -> None:

@@ -151,7 +151,7 @@ def test_transmission_angles_of_the_working_example() -> None:
 # a second method
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("linkage", [CRANK_ROCKER, DRAG_LINK, DOUBLE_ROCKER, ROCKER_CRANK], ids=FourBar.kind)
 @pytest.mark.parametrize("assembly", [1, -1])
 def test_angles_and_derivatives_against_mpmath(linkage: FourBar, assembly: int) -> None:

@@ -57,6 +57,7 @@ def test_forces_by_virtual_work(side: str) -> None:
     assert loads.power_identity < 1e-9
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("lossy", ["mesh_fixed", "mesh_moving"])
 def test_each_mesh_loses_its_share_of_what_it_passes_on(lossy: str) -> None:
     """Seen from the pinion's axis the fixed rack drives the pinion, and this the moving one, against 350 N."""
