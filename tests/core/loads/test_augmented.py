@@ -236,7 +236,7 @@ def test_forces_against_the_augmented_system(case: dict[str, Any], phi: float) -
     _compare(Augmented(factory.design(spec, command="loads"), phi))
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("degrees", [20.0, 80.0, 250.0, 310.0])
 def test_press_against_the_augmented_system(degrees: float) -> None:
     """Twelve links with racks and a roller, main and return cam in turn: 36 equations, 36 constraints."""

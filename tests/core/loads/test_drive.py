@@ -277,7 +277,7 @@ TABLE_12 = {
 TABLE_12 |= {90: 1.0, 99.92: 0.087, 99.94: 0.080, 99.95: 0.077}
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("reliability", "factor"), TABLE_12.items())
 def test_life_of_a_reliability_is_that_of_iso_281(reliability: float, factor: float) -> None:
     """The table has two digits."""

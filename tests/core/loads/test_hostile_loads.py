@@ -51,6 +51,7 @@ def test_blocks_of_rows_are_solved_alike() -> None:
         assert np.array_equal(whole.unknowns[name][:, ::500], values)
 
 
+@pytest.mark.slow
 def test_long_arrays_are_not_kept() -> None:
     machine = factory.design(FEED, command="loads").machine
     for start in range(6):

@@ -32,7 +32,13 @@ def test_every_kind_that_has_loads_is_here() -> None:
     assert {*LOADS, "machine"} == {name for name, kind in KINDS.items() if "loads" in kind.commands}
 
 
-@pytest.mark.parametrize("kind", LOADS)
+ELSEWHERE = {"planar-mechanism", "measured-cam"}
+"""Their own tests look at the same, planar/test_loads.py and cams/test_measured_cam.py."""
+
+
+@pytest.mark.parametrize(
+    "kind", [kind if kind not in ELSEWHERE else pytest.param(kind, marks=pytest.mark.slow) for kind in LOADS]
+)
 def test_both_input_torques_agree_in_every_kind(kind: str) -> None:
     """Virtual power and reactions, 1e-12 of the largest."""
     assert loaded(kind).power_identity <= 1e-12

@@ -207,7 +207,7 @@ def crank_rocker(bar: Any, span: float, *, begin: float = 0.0) -> Places:
     return {**linkage(sense, begin, span), "sense": lambda _: sense, "base": lambda _: base}
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("home", [False, True])
 @pytest.mark.parametrize(("assembly", "way"), [(1, "outward"), (-1, "outward"), (1, "homeward")])
 def test_cam_on_a_crank_rocker(assembly: int, way: str, home: bool) -> None:
@@ -385,6 +385,7 @@ def test_the_way_home_of_a_cam_on_a_crank_rocker_is_under_load() -> None:
     assert [check.status for check in design.check("contact-loss")] == ["fail", "fail"]
 
 
+@pytest.mark.slow
 def test_a_crank_rocker_has_a_whole_turn() -> None:
     """Weights and the device take nothing over a revolution; a flywheel and a motor have what they need."""
     loads = {"gravity": [3.0, -9.81], "drive_direction": 20, "flywheel": {"inertia": 3.0}, "roller": {"width": 20}}

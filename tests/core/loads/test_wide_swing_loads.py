@@ -78,7 +78,7 @@ def test_whole_cycle(layout: str) -> None:
     assert abs(design.input_torque_mean) <= 1e-12 * design.input_torque_max
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_cycle_with_all_that_may_act(layout: str) -> None:
     """Friction's power is what virtual power and reactions differ by; the shafts together bear what acts outside."""
@@ -192,6 +192,7 @@ def test_the_share_that_the_device_misses_counts_in_lift_off() -> None:
     assert pushed.lift_off_speed == 0.0
 
 
+@pytest.mark.slow
 def test_the_weight_of_a_slider_counts_in_the_force_of_its_roller() -> None:
     """Without other loads: against the maximum of the table, 108 N; 34 N are those of inertia and device."""
     changes = {"forces": [], "links": {}, "gravity": [0.0, -9.81]}
