@@ -112,6 +112,7 @@ def test_standstills_against_the_cubic_of_the_pitch_point():
     assert seen >= {("drag-link", 0), ("drag-link", 2), ("crank-rocker", 0), ("crank-rocker", 2)}
 
 
+@pytest.mark.slow
 def test_a_sun_never_stops_on_a_crank_rocker():
     """The statement that thesis 2.2.1 lacks: w2/w1 < 1 in every crank-rocker."""
     for linkage, share in random_linkages(200, 5):
