@@ -100,7 +100,7 @@ def test_example_3_as_printed_collides_and_says_why():
 # A second way
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_motion_table_against_the_cosine_rule(name, assembly):

@@ -147,6 +147,7 @@ def test_no_frame_stands_longer(radii: tuple[float, float, float], share: float,
             assert Output(family.linkage(frame), train).within(tau).crank_angle <= window * (1.0 + 1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(gears, st.floats(0.3, 0.95), st.sampled_from(["crank", "frame", "balanced"]), st.floats(0.05, 0.9))
 def test_tasks_are_met_on_the_motion_itself(

@@ -103,6 +103,7 @@ def test_published_peak_acceleration():
     assert math.sin(found.acceleration_ratio_max_at) == pytest.approx(0.0, abs=1e-14)
 
 
+@pytest.mark.slow
 @examples(150)
 @given(drives(), angles)
 def test_speed_agrees_with_the_instant_centre(drive, phi):
