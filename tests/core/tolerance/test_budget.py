@@ -207,6 +207,7 @@ def test_the_band_of_samples_is_that_of_the_place_where_the_errors_are_largest()
     assert other.band == pytest.approx(one.band, rel=0.05)
 
 
+@pytest.mark.slow
 def test_the_band_keeps_99_73_percent_of_all_samples() -> None:
     """The mean of the bands of the replications, each of 64 samples here, kept fewer."""
     tolerance = {"sources": {"links.crank": {"plus_minus": 0.02}, "links.frame": {"plus_minus": 0.02}}, "samples": 1024}
@@ -260,6 +261,6 @@ def test_twist_of_a_shaft_counts_in_band_and_samples_alike() -> None:
 def test_samples_in_portions_keep_the_same_band(monkeypatch: pytest.MonkeyPatch) -> None:
     """Portions of 100 and of all: the same samples, closed by Newton's method to rounding."""
     sources = {"links.crank": {"plus_minus": 0.02}, "links.frame": {"limits": [-0.01, 0.05]}}
-    whole = register(sources, method="mc", samples=512).band
+    whole = register(sources, method="mc", samples=256).band
     monkeypatch.setattr("gearlink.core.studies.register._AT_ONCE", 100)
-    assert register(sources, method="mc", samples=512).band == pytest.approx(whole, rel=1e-9)
+    assert register(sources, method="mc", samples=256).band == pytest.approx(whole, rel=1e-9)
