@@ -192,6 +192,7 @@ def test_roller_touches_the_profile_where_contact_says(cam: OscillatingCam) -> N
     assert np.all(nearest(inside[inside != 0.5]) < 1.0)
 
 
+@pytest.mark.slow
 def test_contact_begins_where_the_standing_roller_is_left() -> None:
     """The step t from a stop is of its square, its part against the normal of its cube: t^-2 times some roundings."""
     (first, start), (end, last) = PENDULUM.contact

@@ -54,6 +54,7 @@ def test_rocker_alone_is_the_plain_law() -> None:
         np.testing.assert_allclose(mine, theirs, rtol=0, atol=2e-14)
 
 
+@pytest.mark.slow
 @given(
     ratio=st.floats(1.3, 10.0),
     swing=st.floats(0.2, 2.2),
