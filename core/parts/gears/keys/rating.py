@@ -6,7 +6,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from gearlink.core.base.spec import Entries, Spec, only_one, refused, unit
 from gearlink.core.base.wording import unlike
-from gearlink.core.parts.gears.keys.types import AccuracyGrade, Stress
+from gearlink.core.parts.gears.keys.types import AccuracyGrade, OneOrTwo, Stress, Two
 from gearlink.core.parts.gears.rating.conditions import Conditions, Modification, Point, Shaft, System
 from gearlink.core.parts.gears.rating.materials import CLASSES, MATERIALS, STEELS, GearSteel, Quality, gear_steel
 
@@ -38,23 +38,13 @@ Contacts = Annotated[float, unit("1", ge=0, le=100)]
 WebRatio = Annotated[float, unit("1", ge=0.2, le=30)]
 MeanStress = Annotated[float, unit("1", gt=0, le=1)]
 
-_TWO = Field(min_length=2, max_length=2)
-TwoNames = Annotated[list[MaterialName], _TWO]
-TwoHardness = Annotated[list[Hardness | None], _TWO]
-TwoStresses = Annotated[list[Stress | None], _TWO]
-TwoGrades = Annotated[list[AccuracyGrade], _TWO]
-TwoRoughness = Annotated[list[Roughness], _TWO]
-TwoBores = Annotated[list[Bore], _TWO]
-TwoContacts = Annotated[list[Contacts], _TWO]
-TwoMeanStresses = Annotated[list[MeanStress], _TWO]
-
 
 class RoughnessSpec(Spec):
     """Roughness of flank and root: each one number, or one for each gear."""
 
-    flank: Roughness | TwoRoughness = Field(4.8, description="Rz of the flanks")
-    root: Roughness | TwoRoughness = Field(20.0, description="Rz of the root fillets")
-    ra: Roughness | TwoRoughness | None = Field(None, description="Ra of the flanks; default: Rz/8")
+    flank: OneOrTwo[Roughness] = Field(4.8, description="Rz of the flanks")
+    root: OneOrTwo[Roughness] = Field(20.0, description="Rz of the root fillets")
+    ra: OneOrTwo[Roughness] | None = Field(None, description="Ra of the flanks; default: Rz/8")
 
 
 class LubricantSpec(Spec):
@@ -139,28 +129,28 @@ class RatingSpec(Spec):
     """Life, material, accuracy, surface and oil; what stands for each gear is one value, or a list of two."""
 
     life: Annotated[float, unit("h", gt=0, le=1e9)] = Field(description="required life")
-    material: MaterialName | TwoNames | None = Field(
+    material: OneOrTwo[MaterialName] | None = Field(
         None, description="steel or class of ISO 6336-5; optional if the material gives both limits"
     )
-    hardness: Hardness | TwoHardness | None = Field(
+    hardness: Hardness | Two[Hardness | None] | None = Field(
         None, description="HV, of cast iron and normalized steel HBW; default: usual for the steel"
     )
-    brinell: Hardness | TwoHardness | None = Field(
+    brinell: Hardness | Two[Hardness | None] | None = Field(
         None, description="HBW of the flank, for the work hardening; default: hardness"
     )
-    yield_strength: Stress | TwoStresses | None = Field(
+    yield_strength: Stress | Two[Stress | None] | None = Field(
         None, description="yield point, for the notch sensitivity; default: that of the steel"
     )
     quality: Quality = Field("MQ", description="of the material: ML, MQ or ME")
-    grade: AccuracyGrade | TwoGrades | None = Field(
+    grade: OneOrTwo[AccuracyGrade] | None = Field(
         None, description="accuracy grade of ISO 1328-1; default: accuracy_grade"
     )
     tolerance_edition: Literal[1995, 2013] = Field(2013, description="edition of ISO 1328-1")
     roughness: RoughnessSpec = RoughnessSpec.model_construct()
     lubricant: LubricantSpec
     tip_relief: Micrometers | None = Field(None, description="C_a of both gears")
-    bore: Bore | TwoBores = Field(0.0, description="bore; of a ring the outside diameter")
-    web: Annotated[list[WebRatio], _TWO, Entries("[b_s/b, s_R/m]", "[0.25, 5]")] | None = Field(
+    bore: OneOrTwo[Bore] = Field(0.0, description="bore; of a ring the outside diameter")
+    web: Annotated[Two[WebRatio], Entries("[b_s/b, s_R/m]", "[0.25, 5]")] | None = Field(
         None, description="thickness of the web over the width, and of the rim over the module; default: solid"
     )
     system: System = Field(
@@ -172,7 +162,7 @@ class RatingSpec(Spec):
     reduced_mass: Annotated[float, unit("kg/mm", gt=0, le=1e9)] | None = Field(
         None, description="m_red, instead of the one of system and bore"
     )
-    contacts: Contacts | TwoContacts = Field(
+    contacts: OneOrTwo[Contacts] = Field(
         1.0, description="load contacts of a tooth per revolution; a sun has as many as planets, a ring too"
     )
     face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; default: none")
@@ -180,7 +170,7 @@ class RatingSpec(Spec):
         0.85, description="life factor at 1e10 load cycles; 1 only for best material and experience"
     )
     pitting: Literal["none", "allowed"] = Field("none", description="limited pitting: none or allowed")
-    mean_stress: MeanStress | TwoMeanStresses | None = Field(
+    mean_stress: OneOrTwo[MeanStress] | None = Field(
         None, description="mean stress influence factor Y_M; default: 1, of an idler or planet 0.7"
     )
     root_shift: Literal["generating", "nominal"] = Field(

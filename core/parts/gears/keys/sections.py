@@ -6,7 +6,7 @@ from typing import Annotated, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from gearlink.core.base.spec import Coefficient, Spec, only_one, refused, unit
-from gearlink.core.parts.gears.keys.types import Factor, Shift
+from gearlink.core.parts.gears.keys.types import Factor, OneOrTwo, Shift, Two
 
 Protuberance = Annotated[float, unit("1", ge=0, le=1)]
 Rounding = Annotated[float, unit("1", ge=0, le=3)]
@@ -33,11 +33,8 @@ class CutterSpec(Spec):
     rounding: Rounding = Field(0.25, description="radius of the cutter's tip corner")
 
 
-OneOrTwoTools = ToolSpec | Annotated[list[ToolSpec | None], Field(min_length=2, max_length=2)]
-
-
+OneOrTwoTools = ToolSpec | Two[ToolSpec | None]
 Allowance = Annotated[float, unit("mm", ge=-100, le=100)]
-TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
 _TOLERANCE, _ROW = "(2[1-9]|30)", "(ab|a|bc|b|cd|c|d|e|f|g|h)"
 _SERIES = f"^({_TOLERANCE} ?{_ROW}|{_ROW} ?{_TOLERANCE})$"
 """Of DIN 3967, as 25cd on drawings, or cd25 in other programs."""
@@ -60,13 +57,11 @@ Series = Annotated[str, AfterValidator(_a_series), Field(json_schema_extra={"pat
 class AllowanceSpec(Spec):
     """Allowances of the tooth thickness in the normal section: a series of DIN 3967, or limits in mm."""
 
-    series: Series | Annotated[list[Series], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="of DIN 3967, such as 25cd; one, or one for each gear"
-    )
-    upper: TwoAllowances | None = Field(
+    series: OneOrTwo[Series] | None = Field(None, description="of DIN 3967, such as 25cd; one, or one for each gear")
+    upper: Two[Allowance] | None = Field(
         None, description="upper allowances E_sns of gear 1 and 2, usually negative [mm]"
     )
-    lower: TwoAllowances | None = Field(None, description="lower allowances E_sni of gear 1 and 2 [mm]")
+    lower: Two[Allowance] | None = Field(None, description="lower allowances E_sni of gear 1 and 2 [mm]")
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:

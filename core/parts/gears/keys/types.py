@@ -1,10 +1,17 @@
 """Numbers, words and materials of design files that describe gears, with their bounds and units."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias, TypeVar
 
 from pydantic import Field
 
 from gearlink.core.base.spec import Coefficient, Length, Spec, unit
+
+T = TypeVar("T")
+Two = Annotated[list[T], Field(min_length=2, max_length=2)]
+OneOrTwo: TypeAlias = T | Two[T]
+Many = Annotated[list[T], Field(min_length=2, max_length=4)]
+OneOrMany: TypeAlias = T | Many[T]
+"""One for all gears of a pair or a train, or a list with one for each."""
 
 Shift = Annotated[float, unit("1", ge=-5, le=5)]
 HelixAngle = Annotated[float, unit("deg", ge=0, le=45)]
@@ -16,17 +23,14 @@ Factor = Annotated[float, unit("1", gt=0, le=100)]
 Hand = Literal["right", "left"]
 AccuracyGrade = Annotated[int, unit("1", ge=0, le=12)]
 
-TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
-TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
-TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
-TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]
-TwoAlterations = Annotated[list[Alteration], Field(min_length=2, max_length=2)]
-TwoHands = Annotated[list[Hand], Field(min_length=2, max_length=2)]
-TwoSpans = Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)]
-WidthOrTwo = FaceWidth | TwoWidths
-RimOrTwo = Rim | TwoRims
-LengthOrTwo = Length | TwoLengths
-TipShortening = Literal["full", "none"] | TwoAlterations
+TwoShifts = Two[Shift]
+TwoLengths = Two[Length]
+TwoHands = Two[Hand]
+TwoSpans = Two[SpanTeeth]
+WidthOrTwo = OneOrTwo[FaceWidth]
+RimOrTwo = Rim | Two[Rim | None]
+LengthOrTwo = OneOrTwo[Length]
+TipShortening = Literal["full", "none"] | Two[Alteration]
 SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 
 
@@ -52,21 +56,11 @@ Poisson = Annotated[float, unit("1", ge=0, le=0.5)]
 class MaterialSpec(Spec):
     """The materials; each key one number, or one for each gear."""
 
-    elastic_modulus: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] = Field(
-        206000.0, description="modulus of elasticity"
-    )
-    poisson: Poisson | Annotated[list[Poisson], Field(min_length=2, max_length=2)] = Field(
-        0.3, description="Poisson's ratio"
-    )
-    contact_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="sigma_Hlim; default: no safety against pitting"
-    )
-    bending_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
+    elastic_modulus: OneOrTwo[Stress] = Field(206000.0, description="modulus of elasticity")
+    poisson: OneOrTwo[Poisson] = Field(0.3, description="Poisson's ratio")
+    contact_limit: OneOrTwo[Stress] | None = Field(None, description="sigma_Hlim; default: no safety against pitting")
+    bending_limit: OneOrTwo[Stress] | None = Field(
         None, description="sigma_Flim; default: no safety against tooth breakage"
     )
-    contact_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
-        1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given"
-    )
-    bending_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
-        1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given"
-    )
+    contact_factors: OneOrTwo[Factor] = Field(1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given")
+    bending_factors: OneOrTwo[Factor] = Field(1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given")

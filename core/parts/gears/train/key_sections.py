@@ -1,6 +1,6 @@
 """Sections of a train's keys, with an entry for each gear where they are lists: tools, allowances, load, material."""
 
-from typing import Annotated, Any, Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -11,7 +11,9 @@ from gearlink.core.parts.gears.keys.types import (
     FaceWidth,
     Factor,
     Hand,
+    Many,
     MaterialSpec,
+    OneOrMany,
     Poisson,
     Rim,
     Shift,
@@ -19,20 +21,14 @@ from gearlink.core.parts.gears.keys.types import (
     Stress,
 )
 
-_MANY = Field(min_length=2, max_length=4)
-_Allowances = Annotated[list[Allowance], _MANY]
-_Series = Annotated[list[Series], _MANY]
-_Stresses = Annotated[list[Stress], _MANY]
-_Poissons = Annotated[list[Poisson], _MANY]
-_Factors = Annotated[list[Factor], _MANY]
-Shifts = Annotated[list[Shift], _MANY]
-Hands = Annotated[list[Hand], _MANY]
-TipShortenings = Literal["full", "none"] | Annotated[list[Alteration], _MANY]
-FaceWidths = FaceWidth | Annotated[list[FaceWidth], _MANY]
-Rims = Rim | Annotated[list[Rim | None], _MANY]
-Spans = Annotated[list[SpanTeeth], _MANY]
-Pins = Length | Annotated[list[Length], _MANY]
-Tools = ToolSpec | Annotated[list[ToolSpec | None], _MANY]
+Shifts = Many[Shift]
+Hands = Many[Hand]
+TipShortenings = Literal["full", "none"] | Many[Alteration]
+FaceWidths = OneOrMany[FaceWidth]
+Rims = Rim | Many[Rim | None]
+Spans = Many[SpanTeeth]
+Pins = OneOrMany[Length]
+Tools = ToolSpec | Many[ToolSpec | None]
 
 
 def entries(values: dict[str, Any], places: Any) -> dict[str, Any]:
@@ -45,9 +41,11 @@ def entries(values: dict[str, Any], places: Any) -> dict[str, Any]:
 class TrainAllowances(Spec):
     """Allowances of the tooth thickness of every gear: a series of DIN 3967, or limits in mm."""
 
-    series: Series | _Series | None = Field(None, description="of DIN 3967, such as 25cd; one, or one for each gear")
-    upper: _Allowances | None = Field(None, description="upper allowances E_sns of every gear, usually negative [mm]")
-    lower: _Allowances | None = Field(None, description="lower allowances E_sni of every gear [mm]")
+    series: OneOrMany[Series] | None = Field(None, description="of DIN 3967, such as 25cd; one, or one for each gear")
+    upper: Many[Allowance] | None = Field(
+        None, description="upper allowances E_sns of every gear, usually negative [mm]"
+    )
+    lower: Many[Allowance] | None = Field(None, description="lower allowances E_sni of every gear [mm]")
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:
@@ -79,14 +77,14 @@ class TrainLoad(LoadSpec):
 class TrainMaterial(Spec):
     """The materials; each key one number, or one for each gear."""
 
-    elastic_modulus: Stress | _Stresses = Field(206000.0, description="modulus of elasticity")
-    poisson: Poisson | _Poissons = Field(0.3, description="Poisson's ratio")
-    contact_limit: Stress | _Stresses | None = Field(None, description="sigma_Hlim; default: no safety against pitting")
-    bending_limit: Stress | _Stresses | None = Field(
+    elastic_modulus: OneOrMany[Stress] = Field(206000.0, description="modulus of elasticity")
+    poisson: OneOrMany[Poisson] = Field(0.3, description="Poisson's ratio")
+    contact_limit: OneOrMany[Stress] | None = Field(None, description="sigma_Hlim; default: no safety against pitting")
+    bending_limit: OneOrMany[Stress] | None = Field(
         None, description="sigma_Flim; default: no safety against tooth breakage"
     )
-    contact_factors: Factor | _Factors = Field(1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given")
-    bending_factors: Factor | _Factors = Field(
+    contact_factors: OneOrMany[Factor] = Field(1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given")
+    bending_factors: OneOrMany[Factor] = Field(
         1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given; Y_d of an idler is applied in addition"
     )
 
