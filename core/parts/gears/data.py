@@ -381,10 +381,15 @@ class GearData:
             return getattr(self.rated, name)
         value: Any = self
         for step in PLACES.get(name, name).split("."):
-            if value is None:
-                return None
-            value = getattr(value, step)
+            value = _part(value, step)
         return shown(name, value)
+
+
+def _part(value: Any, name: str) -> Any:
+    """An attribute of a value, or of that of each gear; None of None."""
+    if isinstance(value, tuple):
+        return tuple(_part(each, name) for each in value)
+    return None if value is None else getattr(value, name)
 
 
 def shown(name: str, value: Any) -> Any:

@@ -7,14 +7,21 @@ ratio are negative; every formula then holds for both kinds. The shift multiplie
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.tooth import teeth
 from gearlink.core.parts.gears.tooth.teeth import SCALARS, GearFunctions
 
 Pair = tuple[float, float]
+T = TypeVar("T")
+
+
+def by_gear(value: Callable[[int], T]) -> tuple[T, T]:
+    """A value of gear 1 and of gear 2, by their places 0 and 1."""
+    return value(0), value(1)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,14 +6,15 @@ Load factors are those of ISO 6336-1: stiffness, dynamic factor (method B), face
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair, by_gear
 from gearlink.core.parts.gears.rating.conditions import Conditions, LimitLine, Point, damage, limit_line, safety_of
 from gearlink.core.parts.gears.rating.materials import GearSteel
 
@@ -101,13 +102,14 @@ class Bodies:
     @cached_property
     def masses(self) -> Pair:
         """m_1 and m_2: moment of inertia over b r_b^2 [kg/mm]; of a ring between its teeth and its outside."""
-        return self._mass(0), self._mass(1)
+        pair = self.path.pair
 
-    def _mass(self, gear: int) -> float:
-        pair, bore = self.path.pair, self.conditions.bores[gear]
-        middle = abs(pair.tip_radius[gear] + pair.root_radius[gear])
-        inertia = abs(middle**4 - bore**4)
-        return math.pi / 8.0 * _DENSITY * inertia / (2.0 * pair.base_radius[gear]) ** 2
+        def mass(gear: int) -> float:
+            middle = abs(pair.tip_radius[gear] + pair.root_radius[gear])
+            inertia = abs(middle**4 - self.conditions.bores[gear] ** 4)
+            return math.pi / 8.0 * _DENSITY * inertia / (2.0 * pair.base_radius[gear]) ** 2
+
+        return by_gear(mass)
 
     @cached_property
     def reduced_mass(self) -> float:
@@ -127,25 +129,22 @@ class Bodies:
         Raises
             NoSolution - outside of the standard's range
         """
-        pair, edition = self.path.pair, self.conditions.edition
+        pair, given = self.path.pair, self.conditions
         with at_key("rating.grade"):
-            one, other = (
-                ToothTolerances(
-                    grade=self.conditions.grades[gear],
+            return by_gear(
+                lambda gear: ToothTolerances(
+                    grade=given.grades[gear],
                     module=pair.module,
                     diameter=2.0 * abs(pair.reference_radius[gear]),
                     width=self.widths[gear],
-                    edition=edition,
+                    edition=given.edition,
                 )
-                for gear in (0, 1)
             )
-        return one, other
 
     @cached_property
     def base_pitch_deviations(self) -> Pair:
         """f_pb of both gears [um]."""
-        one, other = (each.base_pitch(self.path.pair.transverse_pressure_angle) for each in self.tolerances)
-        return one, other
+        return by_gear(lambda gear: self.tolerances[gear].base_pitch(self.path.pair.transverse_pressure_angle))
 
     @property
     def base_pitch_deviation(self) -> float:
@@ -155,7 +154,7 @@ class Bodies:
     @property
     def profile_form_deviation(self) -> float:
         """The greater f_f,alpha [um]."""
-        return max(each.profile_form for each in self.tolerances)
+        return max(gear.profile_form for gear in self.tolerances)
 
     @cached_property
     def height_ratio(self) -> float:
@@ -259,7 +258,7 @@ class LoadFactors:
     def _run_in(self, deviation: float) -> float:
         """y_p or y_f: the part of a deviation that running in takes away, mean of both gears [um]."""
         v = self.pitch_line_speed
-        return math.fsum(0.5 * run_in(each, deviation, v) for each in self.run_in_by)
+        return math.fsum(0.5 * run_in(gear, deviation, v) for gear in self.run_in_by)
 
     @property
     def run_in_by(self) -> tuple[tuple[str, float], ...]:
@@ -326,7 +325,7 @@ class LoadFactors:
         given = self._conditions.misalignment
         if given is not None:
             return given
-        one, other = (each.helix_slope for each in self.bodies.tolerances)
+        one, other = (gear.helix_slope for gear in self.bodies.tolerances)
         bent, made = self._conditions.left
         found = 1.33 * bent * self.shaft_deflection + made * math.hypot(one, other)
         return max(found, 0.005 * self.dynamic_load, 0.5 * max(one, other))
@@ -335,7 +334,7 @@ class LoadFactors:
     def face_run_in(self) -> float:
         """y_beta [um], mean of both gears."""
         found, v = self.mesh_misalignment, self.pitch_line_speed
-        return math.fsum(0.5 * run_in(each, found, v, face=True) for each in self.run_in_by)
+        return math.fsum(0.5 * run_in(gear, found, v, face=True) for gear in self.run_in_by)
 
     @cached_property
     def face_contact(self) -> float:
@@ -441,6 +440,9 @@ def run_in(material: tuple[str, float], deviation: float, speed: float, *, face:
 
 
 Both = tuple[float | None, float | None]
+Rows = tuple[tuple[float, float, LimitLine], ...]
+"""Load cycles, stress and limit line of each point of a spectrum."""
+_COMPUTED = ("dynamic", "face_contact", "face_bending", "transverse_contact", "transverse_bending")
 _STRESS_CORRECTION = 2.0
 """Y_ST of the reference test gears."""
 _NOTCH = ((300.0, 0.0833), (400.0, 0.0445), (500.0, 0.0281), (600.0, 0.0194), (800.0, 0.0064), (1000.0, 0.0014))
@@ -505,15 +507,7 @@ class Rated:
     @cached_property
     def factors(self) -> Factors:
         """The K factors of the load itself, given or computed."""
-        at = self.at_load
-        return replace(
-            self.load.factors,
-            dynamic=at.dynamic,
-            face_contact=at.face_contact,
-            face_bending=at.face_bending,
-            transverse_contact=at.transverse_contact,
-            transverse_bending=at.transverse_bending,
-        )
+        return replace(self.load.factors, **{name: getattr(self.at_load, name) for name in _COMPUTED})
 
     @property
     def steels(self) -> tuple[GearSteel, GearSteel]:
@@ -532,7 +526,7 @@ class Rated:
     @cached_property
     def load_cycles(self) -> Pair:
         """N_L = 60 n L_h times the load contacts per revolution, of the load itself."""
-        return self.cycles_at(0, Point()), self.cycles_at(1, Point())
+        return by_gear(lambda gear: self.cycles_at(gear, Point()))
 
     # Flank
 
@@ -617,7 +611,7 @@ class Rated:
                 return 1.0
             return float((1.2 - (self._brinell(gear) - _SOFTENED[0]) / 1700.0) * smooth)
 
-        return of(0), of(1)
+        return by_gear(of)
 
     @property
     def size_factor_contact(self) -> Pair:
@@ -629,55 +623,41 @@ class Rated:
         steel = self.steels[gear]
         limit = steel.contact_limit
         film = self.lubricant_factor * self.velocity_factor_at(speed) * self.roughness_factor
-        reference = limit * film * self.work_hardening_factor[gear] * self.size_factor_contact[gear]
+        reference = limit * film * self.work_hardening_factor[gear]
         static = 1.05 - (self._brinell(gear) - _SOFTENED[0]) / 6800.0 if self.hardened[gear] else 1.0
-        return limit_line(
-            steel.kind.flank,
-            limit * static,
-            reference,
-            self.conditions.long_life,
-            pitting_allowed=self.conditions.pitting_allowed,
-        )
+        long, pitting = self.conditions.long_life, self.conditions.pitting_allowed
+        return limit_line(steel.kind.flank, limit * static, reference, long, pitting_allowed=pitting)
 
     @cached_property
     def flank_lines(self) -> tuple[LimitLine, LimitLine]:
         """sigma_HG of both gears over the load cycles at the speed of the load."""
-        v = self.at_load.pitch_line_speed
-        return self.flank_line_at(0, v), self.flank_line_at(1, v)
+        return by_gear(lambda gear: self.flank_line_at(gear, self.at_load.pitch_line_speed))
 
     @cached_property
     def life_factor_contact(self) -> Pair:
         """Z_NT at N_L."""
-        one, other = (line.factor_at(n) for line, n in zip(self.flank_lines, self._counted, strict=True))
-        return one, other
+        return self._at_life(self.flank_lines, LimitLine.factor_at)
 
-    @property
-    def _counted(self) -> Pair:
-        """N_L, at least one load cycle."""
-        return max(self.load_cycles[0], 1.0), max(self.load_cycles[1], 1.0)
+    def _at_life(self, lines: tuple[Any, Any], value: Callable[[LimitLine, float], float]) -> tuple[Any, Any]:
+        """A value of limit lines at N_L, at least one load cycle; None without a line."""
+        return by_gear(lambda i: None if lines[i] is None else value(lines[i], max(self.load_cycles[i], 1.0)))
 
     @cached_property
     def pitting_limit_stress(self) -> Pair:
         """sigma_HG at N_L."""
-        one, other = (line.at(n) for line, n in zip(self.flank_lines, self._counted, strict=True))
-        return one, other
+        return self._at_life(self.flank_lines, LimitLine.at)
 
     # Root
 
     @cached_property
-    def bending_limits(self) -> Pair:
-        """sigma_Flim."""
-        return self.steels[0].bending_limit, self.steels[1].bending_limit
-
-    @cached_property
     def slip_layer(self) -> Pair:
         """rho' [mm]."""
-        return slip_layer(self.steels[0]), slip_layer(self.steels[1])
+        return by_gear(lambda gear: slip_layer(self.steels[gear]))
 
     @cached_property
     def notch_sensitivity_factor(self) -> Both:
         """Y_delta,relT; None of a root that is not rated."""
-        return self._notched(0), self._notched(1)
+        return by_gear(self._notched)
 
     def _notched(self, gear: int) -> float | None:
         section = self.data.root.sections[gear]
@@ -689,26 +669,22 @@ class Rated:
     @cached_property
     def static_notch_sensitivity(self) -> Both:
         """Y_delta,relT at the static knee."""
-        one, other = (
-            None if section is None else static_notch(self.steels[gear], section.stress_correction_factor)
-            for gear, section in enumerate(self.data.root.sections)
-        )
-        return one, other
+
+        def of(gear: int) -> float | None:
+            section = self.data.root.sections[gear]
+            return None if section is None else static_notch(self.steels[gear], section.stress_correction_factor)
+
+        return by_gear(of)
 
     @cached_property
     def surface_factor(self) -> Pair:
         """Y_R,relT."""
-        one, other = (
-            surface_factor(steel.kind.surface, rz)
-            for steel, rz in zip(self.steels, self.conditions.root_roughness, strict=True)
-        )
-        return one, other
+        return by_gear(lambda i: surface_factor(self.steels[i].kind.surface, self.conditions.root_roughness[i]))
 
     @cached_property
     def size_factor_bending(self) -> Pair:
         """Y_X."""
-        one, other = (size_factor(steel.kind.size, self.data.pair.module) for steel in self.steels)
-        return one, other
+        return by_gear(lambda gear: size_factor(self.steels[gear].kind.size, self.data.pair.module))
 
     @cached_property
     def mean_stress_factor(self) -> Pair:
@@ -722,7 +698,7 @@ class Rated:
     @cached_property
     def root_lines(self) -> tuple[LimitLine | None, LimitLine | None]:
         """sigma_FG of both gears over the load cycles."""
-        return self._root_line(0), self._root_line(1)
+        return by_gear(self._root_line)
 
     def _root_line(self, gear: int) -> LimitLine | None:
         lasting, static = self.notch_sensitivity_factor[gear], self.static_notch_sensitivity[gear]
@@ -736,18 +712,12 @@ class Rated:
     @cached_property
     def life_factor_bending(self) -> Both:
         """Y_NT at N_L."""
-        one, other = (
-            None if line is None else line.factor_at(n) for line, n in zip(self.root_lines, self._counted, strict=True)
-        )
-        return one, other
+        return self._at_life(self.root_lines, LimitLine.factor_at)
 
     @cached_property
     def root_limit_stress(self) -> Both:
         """sigma_FG at N_L."""
-        one, other = (
-            None if line is None else line.at(n) for line, n in zip(self.root_lines, self._counted, strict=True)
-        )
-        return one, other
+        return self._at_life(self.root_lines, LimitLine.at)
 
     # Safety, damage and life
 
@@ -758,11 +728,11 @@ class Rated:
         return tuple((point, self.at_load if point == Point() else self.factors_at(point)) for point in rows)
 
     @cached_property
-    def flank_rows(self) -> tuple[tuple[tuple[float, float, LimitLine], ...], ...]:
-        """Load cycles, contact stress and limit line of each point, of both gears; empty of a gear without stress."""
-        return self._flank_rows(0), self._flank_rows(1)
+    def flank_rows(self) -> tuple[Rows, Rows]:
+        """Those of both flanks; empty of a gear without stress."""
+        return by_gear(self._flank_rows)
 
-    def _flank_rows(self, gear: int) -> tuple[tuple[float, float, LimitLine], ...]:
+    def _flank_rows(self, gear: int) -> Rows:
         flank = self.data.flank
         nominal, single = flank.nominal_stress, flank.single_contact_factor
         z = None if single is None else single[gear]
@@ -778,11 +748,11 @@ class Rated:
         )
 
     @cached_property
-    def root_rows(self) -> tuple[tuple[tuple[float, float, LimitLine], ...], ...]:
-        """Load cycles, root stress and limit line of each point, of both gears; empty of a root that is not rated."""
-        return self._root_rows(0), self._root_rows(1)
+    def root_rows(self) -> tuple[Rows, Rows]:
+        """Those of both roots; empty of a root that is not rated."""
+        return by_gear(self._root_rows)
 
-    def _root_rows(self, gear: int) -> tuple[tuple[float, float, LimitLine], ...]:
+    def _root_rows(self, gear: int) -> Rows:
         nominal, line = self.data.root.nominal_stress, self.root_lines[gear]
         stress = None if nominal is None else nominal[gear]
         if stress is None or line is None:
@@ -794,45 +764,28 @@ class Rated:
     @cached_property
     def safety_pitting(self) -> Both:
         """S_H: sigma_HG/sigma_H, of a spectrum the S at which the damage is 1."""
-        if self.conditions.spectrum:
-            return self._at_damage_one(self.flank_rows)
-        one, other = self.pitting_limit_stress
-        return self._over(one, self.flank_rows[0]), self._over(other, self.flank_rows[1])
+        return self._safety(self.flank_rows, lambda: self.pitting_limit_stress)
 
     @cached_property
     def safety_bending(self) -> Both:
         """S_F: sigma_FG/sigma_F, of a spectrum the S at which the damage is 1."""
+        return self._safety(self.root_rows, lambda: self.root_limit_stress)
+
+    def _safety(self, rows: tuple[Rows, Rows], limits: Callable[[], tuple[Any, Any]]) -> Both:
         if self.conditions.spectrum:
-            return self._at_damage_one(self.root_rows)
-        one, other = self.root_limit_stress
-        return self._over(one, self.root_rows[0]), self._over(other, self.root_rows[1])
-
-    @staticmethod
-    def _over(limit: float | None, rows: tuple[tuple[float, float, LimitLine], ...]) -> float | None:
-        return None if limit is None or not rows else limit / rows[0][1]
-
-    @staticmethod
-    def _at_damage_one(rows: tuple[tuple[tuple[float, float, LimitLine], ...], ...]) -> Both:
-        one, other = (safety_of(each) if each else None for each in rows)
-        return one, other
-
-    def _damage(self, rows: tuple[tuple[tuple[float, float, LimitLine], ...], ...], safety: float) -> Both:
-        one, other = (damage(each, safety) if each else None for each in rows)
-        return one, other
+            return by_gear(lambda gear: safety_of(rows[gear]))
+        limit = limits()
+        return by_gear(lambda gear: limit[gear] / rows[gear][0][1] if rows[gear] else None)
 
     @cached_property
     def damage_pitting(self) -> Both:
         """U of the flanks at the required safety."""
-        return self._damage(self.flank_rows, self.data.required.pitting)
+        return _damage(self.flank_rows, self.data.required.pitting)
 
     @cached_property
     def damage_bending(self) -> Both:
         """U of the roots at the required safety."""
-        return self._damage(self.root_rows, self.data.required.bending)
-
-    def _life(self, found: Both) -> Both:
-        one, other = (self.conditions.life / each if each else None for each in found)
-        return one, other
+        return _damage(self.root_rows, self.data.required.bending)
 
     @cached_property
     def pitting_life(self) -> Both:
@@ -844,32 +797,21 @@ class Rated:
         """L_h/U [h]; None where no damage arises."""
         return self._life(self.damage_bending)
 
+    def _life(self, found: Both) -> Both:
+        one, other = (self.conditions.life / used if used else None for used in found)
+        return one, other
+
     @cached_property
     def static_safety(self) -> tuple[Both, Both]:
         """Static limit over the maximum stress of the spectrum, of flanks and roots."""
 
-        def least(rows: tuple[tuple[float, float, LimitLine], ...]) -> float | None:
+        def least(rows: Rows) -> float | None:
             return min((line.static / stress for _, stress, line in rows), default=None)
 
         flank, root = ((least(rows[0]), least(rows[1])) for rows in (self.flank_rows, self.root_rows))
         return flank, root
 
     # Others
-
-    @property
-    def single_pitch_deviation(self) -> Pair:
-        """f_pt [um]."""
-        return self.bodies.tolerances[0].single_pitch, self.bodies.tolerances[1].single_pitch
-
-    @property
-    def profile_form_deviation(self) -> Pair:
-        """f_f,alpha [um]."""
-        return self.bodies.tolerances[0].profile_form, self.bodies.tolerances[1].profile_form
-
-    @property
-    def helix_slope_deviation(self) -> Pair:
-        """f_H,beta [um]."""
-        return self.bodies.tolerances[0].helix_slope, self.bodies.tolerances[1].helix_slope
 
     @cached_property
     def running_in_relief(self) -> float:
@@ -881,8 +823,11 @@ class Rated:
         """The integral temperature; None of rings, and without what the oil needs."""
         if self.conditions.scuffing_stage is None or self.data.pair.internal:
             return None
-
         return Scuffing(self)
+
+
+def _damage(rows: tuple[Rows, Rows], safety: float) -> Both:
+    return by_gear(lambda gear: damage(rows[gear], safety) if rows[gear] else None)
 
 
 def slip_layer(steel: GearSteel) -> float:
@@ -950,10 +895,6 @@ def size_factor(form: str, module: float) -> float:
 _TEST_TORQUE = {8: 239.3, 9: 302.0, 10: 372.6, 11: 450.1, 12: 534.5, 13: 626.9, 14: 714.2}
 """Torque of the pinion at each load stage of the test FZG A/8.3/90 [N m]; that of stage 14 in a printed report."""
 _KELVIN = 273.15
-_LUBRICATION = 1.0
-"""X_S of dip lubrication."""
-_STRUCTURE = 1.0
-"""X_W of steel, case-hardened with usual austenite."""
 
 
 @dataclass(frozen=True)
@@ -1124,10 +1065,10 @@ class Scuffing:
 
     @cached_property
     def mass_temperature(self) -> float:
-        """theta_M [deg C]."""
+        """theta_M [deg C], with X_S = 1 of dip lubrication."""
         oil = self._conditions.oil_temperature
         assert oil is not None, "given with the load stage"
-        return oil + 0.7 * _LUBRICATION * self.mating_factor * self.flash_temperature
+        return oil + 0.7 * self.mating_factor * self.flash_temperature
 
     @cached_property
     def integral_temperature(self) -> float:
@@ -1136,12 +1077,12 @@ class Scuffing:
 
     @cached_property
     def scuffing_temperature(self) -> float:
-        """theta_Sint of the oil, by its test [deg C]."""
+        """theta_Sint of the oil, by its test, with X_W = 1 of case-hardened steel [deg C]."""
         stage = self._conditions.scuffing_stage
         assert stage is not None, "the rating requires it"
         torque = _TEST_TORQUE[stage]
         thin = (100.0 / self._conditions.viscosity_40) ** 0.02
-        return float(80.0 + 0.23 * torque + 0.3 * _STRUCTURE * torque * thin)
+        return float(80.0 + 0.23 * torque + 0.3 * torque * thin)
 
     @cached_property
     def safety(self) -> float:

@@ -9,14 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair, by_gear
 from gearlink.core.parts.gears.rating.load import Factors, Load, Material
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
@@ -135,11 +135,6 @@ class RootSection:
         height = (self.pair.tip_radius[self.gear] - self.pair.reference_radius[self.gear]) / self.pair.module
         return 0.5 * self.virtual_teeth + height
 
-    @cached_property
-    def loaded_at_tip(self) -> RootSection:
-        """The same section with its load at the tip, for Y_Fa and Y_Sa of method C."""
-        return self.loaded(self.tip_radius)
-
     def loaded(self, radius: float) -> RootSection:
         """The same section with its load elsewhere on the flank, by contact_radius [module]."""
         return replace(self, contact_radius=radius)
@@ -209,6 +204,7 @@ class RootSection:
         return (1.2 + 0.13 * slender) * self.notch ** (1.0 / (1.21 + 2.3 / slender))
 
 
+T = TypeVar("T")
 Both = tuple[float | None, float | None]
 _STRESS_CORRECTION = 2.0
 """Y_ST of the reference test gears."""
@@ -266,7 +262,7 @@ class RootStress:
     @cached_property
     def sections(self) -> tuple[RootSection | None, RootSection | None]:
         """The root sections; None where the tool leaves none with a 30 (60) deg tangent and a fillet."""
-        return self._section(0), self._section(1)
+        return by_gear(self._section)
 
     def _section(self, gear: int) -> RootSection | None:
         tool, pair = self.tools[gear], self.path.pair
@@ -289,20 +285,13 @@ class RootStress:
 
     @cached_property
     def at_tip(self) -> tuple[RootSection | None, RootSection | None]:
-        """The same sections loaded at the tip (method C)."""
-        one, other = self.sections
-        return None if one is None else one.loaded_at_tip, None if other is None else other.loaded_at_tip
-
-    @property
-    def tip_form_factor(self) -> Both:
-        """Y_Fa, with the load at the tip."""
-        one, other = self.at_tip
-        return None if one is None else one.form_factor, None if other is None else other.form_factor
+        """The same sections loaded at the tip, for Y_Fa and Y_Sa of method C."""
+        return self._each(lambda root: root.loaded(root.tip_radius))
 
     @property
     def tip_stress_correction_factor(self) -> Both:
         """Y_Sa, with the load at the tip; None where the lever is none."""
-        return _corrected(self.at_tip[0]), _corrected(self.at_tip[1])
+        return by_gear(lambda gear: _corrected(self.at_tip[gear]))
 
     @property
     def contact_ratio_factor(self) -> float | None:
@@ -318,7 +307,7 @@ class RootStress:
     @cached_property
     def rim_factor(self) -> Both | None:
         """Y_B of gear 1 and 2; None without rims, and of a rim that is too thin to be rated."""
-        return None if self.rims == (None, None) else (self._rim_factor(0), self._rim_factor(1))
+        return None if self.rims == (None, None) else by_gear(self._rim_factor)
 
     def _rim_factor(self, gear: int) -> float | None:
         rim, pair = self.rims[gear], self.path.pair
@@ -346,7 +335,7 @@ class RootStress:
         deep = 1.0 if self.deep_tooth_factor is None else self.deep_tooth_factor
         return None if rim is None else rim * deep
 
-    def _each(self, value: Callable[[RootSection], float]) -> Both:
+    def _each(self, value: Callable[[RootSection], T]) -> tuple[T | None, T | None]:
         one, other = self.sections
         return None if one is None else value(one), None if other is None else value(other)
 
@@ -364,16 +353,6 @@ class RootStress:
     def fillet_radius(self) -> Both:
         """rho_F."""
         return self._each(lambda root: root.fillet_radius * self.path.pair.module)
-
-    @property
-    def form_factor(self) -> Both:
-        """Y_F."""
-        return self._each(lambda root: root.form_factor)
-
-    @property
-    def stress_correction_factor(self) -> Both:
-        """Y_S."""
-        return self._each(lambda root: root.stress_correction_factor)
 
     @cached_property
     def helix_angle_factor(self) -> float | None:

@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.report import Table
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.rating.conditions import Conditions
-    from gearlink.core.parts.gears.rating.rated import Rated, Scuffing
+    from gearlink.core.parts.gears.rating.rated import Rated
 
 _1, _2, _3, _5, _6 = (f"ISO 6336-{part}" for part in (1, 2, 3, 5, 6))
-_SCUFFING = "ISO/TR 13989-2"
 COLUMNS = ("symbol", "name", "gear1", "gear2", "unit", "rule", "inputs", "origin", "confirmed")
 
 
@@ -60,16 +58,8 @@ def factors_table(rated: Rated) -> Table:
 
 def lines(rated: Rated) -> Iterator[Line]:
     """The lines of the sheet, in the order of the calculation."""
-    yield from _tolerances(rated)
-    yield from _stiffness(rated)
-    yield from _dynamics(rated)
-    yield from _face(rated)
-    yield from _transverse(rated)
-    yield from _flank(rated)
-    yield from _root(rated)
-    yield from _life(rated)
-    if rated.scuffing is not None:
-        yield from _scuffing(rated)
+    for part in (_tolerances, _stiffness, _dynamics, _face, _transverse, _flank, _root, _life, _scuffing):
+        yield from part(rated)
 
 
 def unconfirmed(rated: Rated) -> list[str]:
@@ -112,18 +102,10 @@ def _stiffness(rated: Rated) -> Iterator[Line]:
     teeth = _said(z=pair.teeth, x=pair.profile_shift)
     yield Line("c'_th", "theoretical stiffness", (bodies.theoretical_stiffness, None), per, rule, teeth)
     web = rated.conditions.web
-    yield Line(
-        *("C_R", "blank factor", (bodies.blank_factor, None), "1", rule, _said(web=web)),
-        origin="default" if web is None else "computed",
-    )
-    yield Line(
-        "C_B",
-        "basic rack factor",
-        (bodies.basic_rack_factor, None),
-        "1",
-        rule,
-        _said(alpha_n=math.degrees(pair.pressure_angle)),
-    )
+    origin = "default" if web is None else "computed"
+    yield Line("C_R", "blank factor", (bodies.blank_factor, None), "1", rule, _said(web=web), origin)
+    inputs = _said(alpha_n=math.degrees(pair.pressure_angle))
+    yield Line("C_B", "basic rack factor", (bodies.basic_rack_factor, None), "1", rule, inputs)
     light = _said(c_th=bodies.theoretical_stiffness, C_M=0.8, C_R=bodies.blank_factor, C_B=bodies.basic_rack_factor)
     heavy = at.line_load >= 100.0
     inputs = light if heavy else f"{light}, {_said(w=at.line_load)}"
@@ -156,9 +138,8 @@ def _dynamics(rated: Rated) -> Iterator[Line]:
     yield Line("m_red", "reduced mass", (bodies.reduced_mass, None), "kg/mm", rule, inputs, origin)
     inputs = _said(c_gamma_alpha=at.mesh_stiffness, m_red=bodies.reduced_mass, z_1=pair.teeth[0])
     yield Line("n_E1", "resonance speed", (at.resonance_speed, None), "1/min", rule, inputs)
-    yield Line(
-        "N", "resonance ratio", (at.resonance_ratio, None), "1", rule, _said(n_1=at.speed, n_E1=at.resonance_speed)
-    )
+    inputs = _said(n_1=at.speed, n_E1=at.resonance_speed)
+    yield Line("N", "resonance ratio", (at.resonance_ratio, None), "1", rule, inputs)
     for symbol, name, value, deviation in (
         ("y_p", "pitch run-in", at.pitch_run_in, bodies.base_pitch_deviation),
         ("y_f", "profile run-in", at.profile_run_in, bodies.profile_form_deviation),
@@ -193,43 +174,30 @@ def _face(rated: Rated) -> Iterator[Line]:
     at, given, rule = rated.at_load, rated.conditions, f"R5 {_1}"
     origin = _origin(rated, "face_contact")
     if origin == "computed":
-        plain = given.shaft is None
+        plain, name = given.shaft is None, "deflection of pinion and shaft"
         if given.misalignment is None:
-            inputs = _said(
-                F_m_b=at.dynamic_load,
-                b=rated.bodies.width,
-                position=None if given.shaft is None else given.shaft.position,
-            )
-            yield Line(
-                "f_sh",
-                "deflection of pinion and shaft",
-                (at.shaft_deflection, None),
-                "um",
-                rule,
-                inputs,
-                confirmed=plain,
-            )
-        inputs = _said(f_sh=at.shaft_deflection, f_H_beta=rated.helix_slope_deviation, modification=given.modification)
-        measured = given.misalignment is not None
-        yield Line(
-            *("F_beta,x", "misalignment before running in", (at.mesh_misalignment, None), "um", rule),
-            *("" if measured else inputs, "given" if measured else "computed"),
-            confirmed=measured or given.modification == "none",
+            position = None if given.shaft is None else given.shaft.position
+            inputs = _said(F_m_b=at.dynamic_load, b=rated.bodies.width, position=position)
+            yield Line("f_sh", name, (at.shaft_deflection, None), "um", rule, inputs, confirmed=plain)
+        inputs = _said(
+            f_sh=at.shaft_deflection,
+            f_H_beta=tuple(gear.helix_slope for gear in rated.bodies.tolerances),
+            modification=given.modification,
         )
+        measured, name = given.misalignment is not None, "misalignment before running in"
+        inputs, how = ("", "given") if measured else (inputs, "computed")
+        sure = measured or given.modification == "none"
+        yield Line("F_beta,x", name, (at.mesh_misalignment, None), "um", rule, inputs, how, sure)
         inputs = _said(F_beta_x=at.mesh_misalignment, sigma_Hlim=rated.contact_limits)
         printed = all(
             _run_in_is_printed(kind, limit, at.mesh_misalignment, at.pitch_line_speed, face=True)
             for kind, limit in at.run_in_by
         )
         yield Line("y_beta", "run-in across the face", (at.face_run_in, None), "um", rule, inputs, confirmed=printed)
-    inputs = _said(
-        F_beta_y=at.mesh_misalignment - at.face_run_in, c_gamma_beta=at.mesh_stiffness_face, F_m_b=at.dynamic_load
-    )
+    left, per = at.mesh_misalignment - at.face_run_in, at.mesh_stiffness_face
+    inputs = "" if origin == "given" else _said(F_beta_y=left, c_gamma_beta=per, F_m_b=at.dynamic_load)
     straight = at.face_contact <= 2.0 or origin == "given"
-    yield Line(
-        *("K_Hbeta", "face load factor, flank", (at.face_contact, None), "1", rule),
-        *(inputs if origin == "computed" else "", origin, straight),
-    )
+    yield Line("K_Hbeta", "face load factor, flank", (at.face_contact, None), "1", rule, inputs, origin, straight)
     inputs, origin = _said(K_Hbeta=at.face_contact, h_b=rated.bodies.height_ratio), _origin(rated, "face_bending")
     yield Line("K_Fbeta", "face load factor, root", (at.face_bending, None), "1", rule, inputs, origin)
 
@@ -283,33 +251,32 @@ def _hardness(rated: Rated) -> tuple[str, ...]:
 
 def _root(rated: Rated) -> Iterator[Line]:
     given, rule, steels = rated.conditions, f"R8 {_3}", rated.steels
-    origin = _limit_origin(rated, "bending_limit")
+    origin, limits = _limit_origin(rated, "bending_limit"), (steels[0].bending_limit, steels[1].bending_limit)
     inputs = _said(material=tuple(steel.name for steel in steels), quality=given.quality, hardness=_hardness(rated))
     printed = origin == "given"
-    yield Line("sigma_Flim", "bending strength", rated.bending_limits, "N/mm^2", f"R11 {_5}", inputs, origin, printed)
+    yield Line(
+        "sigma_Flim",
+        "bending strength",
+        limits,
+        "N/mm^2",
+        f"R11 {_5}",
+        inputs,
+        origin,
+        printed,
+    )
     yield Line("Y_ST", "stress correction of the test gears", (2.0, 2.0), "1", rule)
     sections = rated.data.root.sections
     notches = tuple("-" if section is None else f"{section.notch:.6g}" for section in sections)
     printed = all(steel.of in ("case-hardened", "induction-hardened") or _hard_by_yield(steel) for steel in steels)
-    inputs = _said(rho=rated.slip_layer, q_s=notches)
-    yield Line(
-        *("Y_delta,relT", "notch sensitivity factor", rated.notch_sensitivity_factor, "1", rule, inputs),
-        confirmed=printed,
-    )
+    inputs, values = _said(rho=rated.slip_layer, q_s=notches), rated.notch_sensitivity_factor
+    yield Line("Y_delta,relT", "notch sensitivity factor", values, "1", rule, inputs, confirmed=printed)
     printed = all(s.kind.surface == "steel" for s in steels) and min(given.root_roughness) >= 1.0
     rough = "computed" if "roughness.root" in given.given else "default"
     inputs = _said(Rz=given.root_roughness)
     yield Line("Y_R,relT", "surface factor", rated.surface_factor, "1", rule, inputs, rough, printed)
     printed = all(steel.kind.size != "iron" for steel in steels)
-    yield Line(
-        "Y_X",
-        "size factor, root",
-        rated.size_factor_bending,
-        "1",
-        rule,
-        _said(m=rated.data.pair.module),
-        confirmed=printed,
-    )
+    inputs = _said(m=rated.data.pair.module)
+    yield Line("Y_X", "size factor, root", rated.size_factor_bending, "1", rule, inputs, confirmed=printed)
     origin = "default" if given.mean_stress is None else "given"
     yield Line("Y_M", "mean stress influence factor", rated.mean_stress_factor, "1", rule, origin=origin)
 
@@ -335,88 +302,45 @@ def _life(rated: Rated) -> Iterator[Line]:
     )
     yield Line("Y_NT", "life factor, root", rated.life_factor_bending, "1", f"R9 {_3}", inputs, confirmed=lasting)
     if not lasting:
-        yield Line(
-            *("Y_delta,relT st", "notch sensitivity at the static knee", rated.static_notch_sensitivity, "1"),
-            *(f"R9 {_3}", _said(yield_strength=tuple(steel.yield_strength for steel in rated.steels))),
-            confirmed=False,
-        )
+        inputs = _said(yield_strength=tuple(steel.yield_strength for steel in rated.steels))
+        name, values = "notch sensitivity at the static knee", rated.static_notch_sensitivity
+        yield Line("Y_delta,relT st", name, values, "1", f"R9 {_3}", inputs, confirmed=False)
     yield Line("sigma_FG", "limit stress of the root", rated.root_limit_stress, "N/mm^2", f"R8 {_3}")
-    yield Line(
-        "U_H", "damage of the flank", rated.damage_pitting, "1", f"R9 {_6}", _said(S=rated.data.required.pitting)
-    )
-    yield Line("U_F", "damage of the root", rated.damage_bending, "1", f"R9 {_6}", _said(S=rated.data.required.bending))
+    required, rule = rated.data.required, f"R9 {_6}"
+    yield Line("U_H", "damage of the flank", rated.damage_pitting, "1", rule, _said(S=required.pitting))
+    yield Line("U_F", "damage of the root", rated.damage_bending, "1", rule, _said(S=required.bending))
 
 
 def _scuffing(rated: Rated) -> Iterator[Line]:
-    found, given, rule = rated.scuffing, rated.conditions, f"R10 {_SCUFFING}"
-    assert found is not None, "needed only where it stands"
+    found, given, rule = rated.scuffing, rated.conditions, "R10 ISO/TR 13989-2"
+    if found is None:
+        return
     inputs = _said(nu_40=given.viscosity_40, nu_100=given.viscosity_100, oil=given.oil_temperature)
     yield Line("eta", "viscosity at the oil temperature", (found.viscosity, None), "mPa s", rule, inputs)
-    yield Line(
-        "w'",
-        "line load w K_v K_Hbeta K_Halpha",
-        (found.line_load, None),
-        "N/mm",
-        rule,
-        _said(w=rated.at_load.line_load),
-    )
+    inputs = _said(w=rated.at_load.line_load)
+    yield Line("w'", "line load w K_v K_Hbeta K_Halpha", (found.line_load, None), "N/mm", rule, inputs)
     yield Line("K_Bgamma", "helical load factor of scuffing", (found.helical_factor, None), "1", rule)
     inputs = _said(w=found.line_load, rho_C=found.curvature, Ra=given.ra, eta=found.viscosity)
     yield Line("mu", "mean coefficient of friction", (found.friction, None), "1", rule, inputs)
     yield Line("X_M", "thermal flash factor", (found.thermal_flash_factor, None), "K N^-3/4 s^1/2 m^-1/2 mm", rule)
     yield Line("X_BE", "geometry factor", (found.geometry_factor, None), "1", rule, _said(rho_E=found.tip_curvatures))
     yield Line("X_alphabeta", "angle factor", (found.angle_factor, None), "1", rule)
-    one, other = found.addendum_contact_ratios
-    short = max(one, other) < 1.0
-    inputs = _said(eps=(one, other))
-    met = found.approach_factor == 1.0
+    short = max(found.addendum_contact_ratios) < 1.0
+    inputs, met = _said(eps=found.addendum_contact_ratios), found.approach_factor == 1.0
     yield Line("X_Q", "approach factor", (found.approach_factor, None), "1", rule, inputs, confirmed=met)
-    yield Line(
-        "X_eps",
-        "contact ratio factor of scuffing",
-        (found.contact_ratio_factor, None),
-        "1",
-        rule,
-        inputs,
-        confirmed=short,
-    )
-    yield _relief(rated, found)
-    yield from _temperatures(found, given)
-
-
-def _temperatures(found: Scuffing, given: Conditions) -> Iterator[Line]:
-    rule = f"R10 {_SCUFFING}"
+    name, value = "contact ratio factor of scuffing", found.contact_ratio_factor
+    yield Line("X_eps", name, (value, None), "1", rule, inputs, confirmed=short)
+    inputs, origin = _said(C_a=given.tip_relief, C_a_C_eff=found.relief_share), "computed"
+    if given.tip_relief is None:
+        inputs, origin = _said(C_a=rated.running_in_relief, C_a_C_eff=found.relief_share), "default"
+    value, full = found.relief_factor, found.relief_share < 1.0
+    yield Line("X_Ca", "tip relief factor", (value, None), "1", rule, inputs, origin, full)
     yield Line("theta_fl", "mean flash temperature", (found.flash_temperature, None), "K", rule, _said(v=found.speed))
     met, inputs = found.mates == 1, _said(n_p=found.mates)
     yield Line("X_mp", "multiple mating factor", (found.mating_factor, None), "1", rule, inputs, confirmed=met)
     inputs = _said(oil=given.oil_temperature, theta_fl=found.flash_temperature)
     yield Line("theta_int", "integral temperature", (found.integral_temperature, None), "deg C", rule, inputs)
     inputs = _said(stage=given.scuffing_stage, nu_40=given.viscosity_40)
-    printed = given.scuffing_stage == 14
-    yield Line(
-        "theta_intS",
-        "scuffing temperature",
-        (found.scuffing_temperature, None),
-        "deg C",
-        rule,
-        inputs,
-        confirmed=printed,
-    )
+    value, printed = found.scuffing_temperature, given.scuffing_stage == 14
+    yield Line("theta_intS", "scuffing temperature", (value, None), "deg C", rule, inputs, confirmed=printed)
     yield Line("S_intS", "safety against scuffing", (found.safety, None), "1", rule)
-
-
-def _relief(rated: Rated, found: Scuffing) -> Line:
-    given, rule = rated.conditions, f"R10 {_SCUFFING}"
-    designed = given.tip_relief is not None
-    inputs = _said(C_a=given.tip_relief if designed else rated.running_in_relief, C_a_C_eff=found.relief_share)
-    full = found.relief_share < 1.0
-    return Line(
-        "X_Ca",
-        "tip relief factor",
-        (found.relief_factor, None),
-        "1",
-        rule,
-        inputs,
-        "computed" if designed else "default",
-        full,
-    )

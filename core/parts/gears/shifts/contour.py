@@ -368,7 +368,7 @@ class GearDatas(GearData):
         >>> from gearlink.core.parts.gears.mesh.pair import GearPair
         >>> one = GearData(pair=GearPair(module=2.0, teeth=(20, 40), given_shift=(0.1, 0.0)))
         >>> many = shifted(one, np.array([0.1, 0.3]), np.zeros(2))
-        >>> many.pair.contact_ratio.round(6).tolist(), many.root.form_factor[0].round(6).tolist()
+        >>> many.pair.contact_ratio.round(6).tolist(), many.root.sections[0].form_factor.round(6).tolist()
         ([1.601225, 1.532794], [1.494699, 1.349281])
     """
 
