@@ -482,7 +482,7 @@ def gear_of(
         title=title,
         stretches=stretches,
         closed=True,
-        teeth=profile.teeth,
+        teeth=pair.teeth[number],
         circles=(
             Circle("REFERENCE_CIRCLE", profile.reference_radius),
             Circle("WORKING_CIRCLE", pair.working_radius[number]),
@@ -504,7 +504,7 @@ def ring_of(mesh: GearPair, rim: float, name: str, title: str, width: float | No
     Notes
         Without its cutter the flanks are involutes down to the root circle: how a cutter rounds the root depends on it.
     """
-    shape = RingProfile.of(mesh)
+    shape = RingProfile(mesh)
     return Part(
         name=name,
         title=title,
@@ -516,7 +516,7 @@ def ring_of(mesh: GearPair, rim: float, name: str, title: str, width: float | No
         closed=True,
         teeth=shape.teeth,
         circles=(
-            Circle("REFERENCE_CIRCLE", shape.reference),
+            Circle("REFERENCE_CIRCLE", abs(mesh.reference_radius[1])),
             Circle("BASE_CIRCLE", shape.base),
             Circle("TIP_CIRCLE", shape.tip),
             Circle("ROOT_CIRCLE", shape.deepest),
@@ -524,13 +524,13 @@ def ring_of(mesh: GearPair, rim: float, name: str, title: str, width: float | No
         ),
         notes=_ring_notes(mesh, shape, rim),
         width=width,
-        twist=SENSES[hand] * math.tan(mesh.helix_angle) / shape.reference,
+        twist=SENSES[hand] * math.tan(mesh.helix_angle) / abs(mesh.reference_radius[1]),
         rim=rim,
     )
 
 
 def _ring_notes(mesh: GearPair, shape: RingProfile, rim: float) -> tuple[str, ...]:
-    section = "; transverse section" if shape.helical else ""
+    section = "; transverse section" if mesh.helix_angle else ""
     root = "involute down to the root circle; the fillet depends on the cutter, which the file does not give"
     if shape.shaped is not None:
         cutter = shape.shaped.cutter
@@ -539,7 +539,8 @@ def _ring_notes(mesh: GearPair, shape: RingProfile, rim: float) -> tuple[str, ..
             f"module; involute to {shape.shaped.form_radius:.9g} mm"
         )
     return (
-        f"module {mesh.module:g} mm, ring of {shape.teeth} teeth, profile shift {shape.shift:.9g} (ISO 21771 sign)",
+        f"module {mesh.module:g} mm, ring of {shape.teeth} teeth, "
+        f"profile shift {mesh.profile_shift[1]:.9g} (ISO 21771 sign)",
         f"tip radius {shape.tip:.9g} mm, root radius {shape.deepest:.9g} mm, outer radius {rim:.9g} mm",
         root,
         "no backlash: reduce the tooth thickness by the allowance of the drawing",
@@ -628,11 +629,11 @@ def _notes(pair: GearPair, number: int, profile: ToothProfile, hand: str) -> tup
     helix = _helix(pair, hand)
     section = "; transverse section" if pair.helix_angle else ""
     notes = [
-        f"module {pair.module:g} mm, {profile.teeth} teeth, profile shift {profile.shift:.9g}, "
+        f"module {pair.module:g} mm, {profile.cut.teeth} teeth, profile shift {profile.cut.shift:.9g}, "
         f"pressure angle {math.degrees(pair.pressure_angle):.9g} deg{helix}",
         f"tip radius {profile.outer_radius:.9g} mm, root radius {profile.root_radius:.9g} mm, "
         f"tooth thickness on the reference circle (normal section) {pair.tooth_thickness[number]:.9g} mm",
-        f"root cut by a rack tool with a tip rounding of {profile.tool_rounding:.6g} module; involute from "
+        f"root cut by a rack tool with a tip rounding of {profile.cut.tool.rounding:.6g} module; involute from "
         f"radius {profile.form_radius:.9g} mm" + (", undercut" if profile.undercut else ""),
         "no backlash: reduce the tooth thickness by the allowance of the drawing",
         f"frame: gear axis at the origin, middle of a tooth space on the x axis{section}",

@@ -440,7 +440,7 @@ def _zone_ring(axes: Axes, mesh: Mesh) -> None:
     """The teeth of a ring, and its body out to the rim."""
     pair, geometry = mesh.pair, mesh.geometry
     center = geometry.axes[1]
-    teeth = RingProfile.of(pair).outline(48) * np.exp(1j * geometry.first_space[1]) + center
+    teeth = RingProfile(pair).outline(48) * np.exp(1j * geometry.first_space[1]) + center
     rim = center - 2.0 * pair.root_radius[1] * np.exp(-2j * math.pi * np.linspace(0.0, 1.0, 181))
     body = np.concatenate([teeth, rim])
     style.area(axes, body, facecolor=COLORS[1], alpha=0.16, linewidth=0)

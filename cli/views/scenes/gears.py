@@ -72,7 +72,7 @@ def gear(
     if pair.teeth[number] < 0:
         outer = rim_radius(pair.root_radius[1], pair.module, rim)
         points = 12 if any(pair.profile_shift) else 6  # on a flank: teeth with shifts are looked at more closely
-        return _ring(look, teeth, RingProfile.of(pair).outline(points), outer)
+        return _ring(look, teeth, RingProfile(pair).outline(points), outer)
     outline = _teeth(pair, number)
     if outline is None:
         body = replace(look, outline=circle(tip), repeats=0, label=f"{label} (tip circle)".lstrip())

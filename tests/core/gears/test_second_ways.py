@@ -270,7 +270,7 @@ def test_a_pinion_that_is_pushed_into_its_ring_fits_as_the_margin_says(
     assert (angle >= 0.0) == goes
     pinion = outline(ToothProfile.of(pair, 0), 1e-3)
     pinion = pinion[np.abs(pinion) > pair.reference_radius[0]]  # its tips: corners decide
-    ring = RingProfile.of(pair).outline(24)
+    ring = RingProfile(pair).outline(24)
     a, first = abs(pair.center_distance), MeshGeometry(pair).first_space
     worst = 0.0
     for one, other in turned_sections(pair, 6):

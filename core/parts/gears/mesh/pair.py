@@ -16,7 +16,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair, PitchPair, bound_of_shift_sum
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair, PitchPair, bound_of_shift_sum, by_gear
 from gearlink.core.parts.gears.tooth import teeth
 
 if TYPE_CHECKING:
@@ -326,9 +326,7 @@ class GearPair(PitchPair):
         """The ring as its pinion cutter leaves it; None without one."""
         if self.cutter is None or not self.internal:
             return None
-        from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
-
-        return ShapedRing(
+        return self._kind_of_ring()(
             module=self.module,
             teeth=self.teeth[1],
             shift=self.profile_shift[1],
@@ -336,6 +334,11 @@ class GearPair(PitchPair):
             pressure_angle=self.pressure_angle,
             helix_angle=self.helix_angle,
         )
+
+    def _kind_of_ring(self) -> type[ShapedRing]:
+        from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
+
+        return ShapedRing
 
     @cached_property
     def root_radius(self) -> Pair:
@@ -469,17 +472,24 @@ class GearPair(PitchPair):
         """z_min = 2 cos(beta) (h - x)/sin^2(alpha_t), for a rack tool; a ring has none."""
         return self.min_teeth_of(0), None if self.internal else self.min_teeth_of(1)
 
-    def cut_root(self, gear: int) -> RackCutRoot:
-        """The root of an external gear as its tool leaves it, in modules."""
+    @cached_property
+    def roots(self) -> tuple[RackCutRoot, RackCutRoot]:
+        """The roots as their tools leave them, in modules; what it says of a ring is nothing."""
+        made = self._kind_of_root()
+        return by_gear(
+            lambda gear: made(
+                teeth=self.teeth[gear],
+                shift=self.profile_shift[gear],
+                tool=self.tool(gear),
+                pressure_angle=self.pressure_angle,
+                helix_angle=self.helix_angle,
+            )
+        )
+
+    def _kind_of_root(self) -> type[RackCutRoot]:
         from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
 
-        return RackCutRoot(
-            teeth=self.teeth[gear],
-            shift=self.profile_shift[gear],
-            tool=self.tool(gear),
-            pressure_angle=self.pressure_angle,
-            helix_angle=self.helix_angle,
-        )
+        return RackCutRoot
 
     @cached_property
     def form_radius(self) -> tuple[float | None, float | None]:
@@ -492,7 +502,7 @@ class GearPair(PitchPair):
             return None if self.shaped is None else -self.shaped.form_radius
         if self.tool(gear).rounding_center(self.pressure_angle) < 0.0:
             return None
-        return self.module * self.cut_root(gear).form_radius
+        return self.module * self.roots[gear].form_radius
 
     @cached_property
     def span_teeth(self) -> tuple[int, int | None]:

@@ -309,24 +309,8 @@ class GearPairs(GearPair):
     def _standard_tool(self) -> RackTool:
         return standard_tool(self.pressure_angle, self.addendum, self.clearance, self.fn)
 
-    @cached_property
-    def roots(self) -> tuple[RackCutRoots, RackCutRoots]:
-        """The roots of both gears."""
-        one, other = (
-            RackCutRoots(
-                teeth=self.teeth[gear],
-                shift=self.profile_shift[gear],
-                tool=self.tool(gear),
-                pressure_angle=self.pressure_angle,
-                helix_angle=self.helix_angle,
-            )
-            for gear in (0, 1)
-        )
-        return one, other
-
-    def cut_root(self, gear: int) -> RackCutRoots:
-        """The root of a gear of each pair."""
-        return self.roots[gear]
+    def _kind_of_root(self) -> type[RackCutRoots]:
+        return RackCutRoots
 
     def form_radius_of(self, gear: int) -> Any:
         """r_Ff of one gear of each pair."""
@@ -505,19 +489,8 @@ class RingPairs(GearPairs):
         """z_min of the pinions; rings have none."""
         return self.min_teeth_of(0), np.nan
 
-    @cached_property
-    def shaped(self) -> ShapedRings | None:
-        """The rings as their cutter leaves them; None without one."""
-        if self.cutter is None:
-            return None
-        return ShapedRings(
-            module=self.module,
-            teeth=self.teeth[1],
-            shift=self.profile_shift[1],
-            cutter=self.cutter,
-            pressure_angle=self.pressure_angle,
-            helix_angle=self.helix_angle,
-        )
+    def _kind_of_ring(self) -> type[ShapedRings]:
+        return ShapedRings
 
     def form_radius_of(self, gear: int) -> Any:
         """r_Ff of one gear of each pair; of a ring only with a cutter."""

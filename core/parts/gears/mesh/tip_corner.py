@@ -206,7 +206,7 @@ class TipCorner:
                 return abs(point), pair.fn.phase(point)
 
             return of_ring, *shaped.turns
-        root = pair.cut_root(self.gear)
+        root = pair.roots[self.gear]
 
         def of_gear(normal: Any) -> tuple[Any, Any]:
             radius, beside = root.polar(normal)

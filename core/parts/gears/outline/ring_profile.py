@@ -7,31 +7,27 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Points, Reals, unit_vector
 from gearlink.core.numerics.curves import Curve, arc
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute, roll_at
 
 
-@dataclass(frozen=True, kw_only=True)
 class RingProfile:
     """A ring between the middle of a space and the middle of the next tooth; radii are magnitudes.
 
     Parameters
-        teeth : int - |z|
-        shift : float [module] - x, with ISO's sign
-        reference, base, tip, root : float [mm] - radii
-        at_base : float [rad] - half the angle of a tooth, measured to where its flank would meet the base circle
-        tip_roll : float - tan of the pressure angle at the tip
-        shaped : ShapedRing or None - as its cutter shapes it; None: flanks down to the root circle, sharp corners
+        mesh : GearPair - whose ring it is; without a cutter its flanks go down to the root circle, with sharp corners
+    Returns
+        Attributes: |z|, the base, tip and root radius [mm], half the angle of a tooth where its flank would meet the
+        base circle [rad], tan of the pressure angle at the tip, and the ring as its cutter shapes it, or None.
+    Raises
+        NoSolution - where its tips lie inside its base circle, or its cutter cannot cut it
     Example
-        >>> ring = RingProfile.of(GearPair(module=2.0, teeth=(48, -62), given_shift=(0.0, 0.0)))
+        >>> ring = RingProfile(GearPair(module=2.0, teeth=(48, -62), given_shift=(0.0, 0.0)))
         >>> [name for name, *_ in ring.pieces()]
         ['root circle', 'involute', 'tip circle']
 
@@ -39,40 +35,12 @@ class RingProfile:
         own derivation: the space of the ring is the tooth of an outer gear of as many teeth and the opposite shift
     """
 
-    teeth: int
-    shift: float
-    reference: float
-    base: float
-    tip: float
-    root: float
-    at_base: float
-    tip_roll: float
-    shaped: ShapedRing | None = None
-    helical: bool = False
-
-    @classmethod
-    def of(cls, mesh: GearPair) -> RingProfile:
-        """The ring of a pair.
-
-        Raises
-            NoSolution - where its tips lie inside its base circle, or its cutter cannot cut it
-        """
-        reference, base, tip, root = (
-            abs(radii[1]) for radii in (mesh.reference_radius, mesh.base_radius, mesh.tip_radius, mesh.root_radius)
-        )
-        known: dict[str, Any] = {"reference": reference, "base": base, "tip": tip, "root": root}
-        roll = math.tan(mesh.tip_pressure_angle[1])
-        z, shift = -mesh.teeth[1], mesh.profile_shift[1]
-        half = (math.pi / 2.0 + 2.0 * shift * math.tan(mesh.pressure_angle)) / z
-        return cls(
-            teeth=z,
-            shift=shift,
-            at_base=half - involute(mesh.transverse_pressure_angle),
-            tip_roll=roll,
-            shaped=mesh.shaped,
-            helical=bool(mesh.helix_angle),
-            **known,
-        )
+    def __init__(self, mesh: GearPair) -> None:
+        self.base, self.tip, self.root = (abs(r[1]) for r in (mesh.base_radius, mesh.tip_radius, mesh.root_radius))
+        self.teeth, self.shaped = -mesh.teeth[1], mesh.shaped
+        half = (math.pi / 2.0 + 2.0 * mesh.profile_shift[1] * math.tan(mesh.pressure_angle)) / self.teeth
+        self.at_base = half - involute(mesh.transverse_pressure_angle)
+        self.tip_roll = math.tan(mesh.tip_pressure_angle[1])
 
     @property
     def deepest(self) -> float:

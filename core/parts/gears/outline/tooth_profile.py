@@ -20,7 +20,7 @@ from gearlink.core.numerics.curves import Curve, arc
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, roll_at
 from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
-from gearlink.core.parts.gears.tooth.tools import RackTool, full_rounding
+from gearlink.core.parts.gears.tooth.tools import full_rounding
 
 _LEAST_CHORD_ERROR = 1e-7  # module; below it the points of large gears would be distinguished by rounding alone
 
@@ -30,15 +30,9 @@ class ToothProfile:
     """The profile of one gear between the middle of a space and the middle of a tooth.
 
     Parameters
+        cut : RackCutRoot - the root that the tool leaves: teeth, shift, angles and tool
         module : float [mm] - m
-        teeth : int - z
-        shift : float [module] - profile shift x
-        pressure_angle : float [rad] - alpha of the reference profile
         tip_radius : float [mm] - r_a
-        tool_addendum : float [module] - h_a* + c*, the tool's tip below its reference line
-        tool_rounding : float [module] - rho*, radius of the tool's tip
-        helix_angle : float [rad] - beta
-        residual_undercut : float [module] - s_pr* of the tool
     Returns
         Properties: lengths in mm, angles in rad.
     Raises
@@ -54,38 +48,32 @@ class ToothProfile:
         own derivation from the law of gearing; ISO 53 for the tool's rounding
     """
 
+    cut: RackCutRoot
     module: float
-    teeth: int
-    shift: float
-    pressure_angle: float
     tip_radius: float
-    tool_addendum: float = 1.25
-    tool_rounding: float = 0.38
-    helix_angle: float = 0.0
-    residual_undercut: float = 0.0
 
     def __post_init__(self) -> None:
-        sharp = full_rounding(self.pressure_angle, self.tool_addendum, self.residual_undercut)
-        if sharp < 0.0:
+        tool, alpha, teeth, shift = self.cut.tool, self.cut.pressure_angle, self.cut.teeth, self.cut.shift
+        most = full_rounding(alpha, tool.addendum, tool.residual_undercut)
+        if most < 0.0:
             raise NoSolution(
-                f"addendum of the tool (addendum + clearance): {short(self.tool_addendum)} modules (limit < "
-                f"{safely_below(math.pi / 4.0 / math.tan(self.pressure_angle))} modules, where it is pointed)"
+                f"addendum of the tool (addendum + clearance): {short(tool.addendum)} modules (limit < "
+                f"{safely_below(math.pi / 4.0 / math.tan(alpha))} modules, where it is pointed)"
             )
-        most = sharp
-        if not 0.0 <= self.tool_rounding <= most * (1.0 + 1e-12):
+        if not 0.0 <= tool.rounding <= most * (1.0 + 1e-12):
             raise NoSolution(
-                f"rounding of the tool: {unlike(self.tool_rounding, most)} modules (from 0 to {safely_below(most)} "
+                f"rounding of the tool: {unlike(tool.rounding, most)} modules (from 0 to {safely_below(most)} "
                 "modules, a full round)"
             )
         if not self._root > 0.0:
             raise NoSolution(
-                f"a gear of {self.teeth} teeth with the profile shift {short(self.shift)} has no root circle left",
-                fix=f"use at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or a larger shift",
+                f"a gear of {teeth} teeth with the profile shift {short(shift)} has no root circle left",
+                fix=f"use at least {math.ceil(2.0 * (tool.addendum - shift) + 1e-9)} teeth or a larger shift",
             )
         if not self._form < self._top:
             remedy = "increase" if self.undercut and not self._top < self.tip_radius / self.module else "reduce"
             raise NoSolution(
-                f"start of the involute of a gear of {self.teeth} teeth: radius "
+                f"start of the involute of a gear of {teeth} teeth: radius "
                 f"{unlike(self.form_radius, self.outer_radius)} mm (limit < "
                 f"{unlike(self.outer_radius, self.form_radius)} mm, its tip)",
                 fix=f"{remedy} the profile shift, or use more teeth",
@@ -100,24 +88,13 @@ class ToothProfile:
         Raises
             NoSolution - as the class
         Example
-            >>> round(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0).tool_rounding, 6)
+            >>> round(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0).cut.tool.rounding, 6)
             0.379951
 
         Source
             ISO 53, profile A
         """
-        tool = pair.tool(gear)
-        return cls(
-            module=pair.module,
-            teeth=pair.teeth[gear],
-            shift=pair.profile_shift[gear],
-            pressure_angle=pair.pressure_angle,
-            tip_radius=pair.tip_radius[gear],
-            tool_addendum=tool.addendum,
-            tool_rounding=tool.rounding,
-            helix_angle=pair.helix_angle,
-            residual_undercut=tool.residual_undercut,
-        )
+        return cls(cut=pair.roots[gear], module=pair.module, tip_radius=pair.tip_radius[gear])
 
     # Radii and angles; names with an underscore are in modules
 
@@ -152,51 +129,38 @@ class ToothProfile:
     @property
     def undercut(self) -> bool:
         """Whether the tool cuts into the involute at its foot."""
-        return self._cut.undercut
+        return self.cut.undercut
 
     @property
     def pitch_angle(self) -> float:
         """Angle from one space to the next, 2 pi/z [rad]."""
-        return 2.0 * math.pi / self.teeth
-
-    @cached_property
-    def _cut(self) -> RackCutRoot:
-        tool = RackTool(
-            addendum=self.tool_addendum, rounding=self.tool_rounding, residual_undercut=self.residual_undercut
-        )
-        return RackCutRoot(
-            teeth=self.teeth,
-            shift=self.shift,
-            tool=tool,
-            pressure_angle=self.pressure_angle,
-            helix_angle=self.helix_angle,
-        )
+        return 2.0 * math.pi / self.cut.teeth
 
     @property
     def _r(self) -> float:
-        return self.teeth / 2.0 / math.cos(self.helix_angle)
+        return self.cut.teeth / 2.0 / math.cos(self.cut.helix_angle)
 
     @property
     def _base(self) -> float:
-        return self._cut.base_radius
+        return self.cut.base_radius
 
     @property
     def _root(self) -> float:
-        return self._r + self.shift - self.tool_addendum
+        return self._r + self.cut.shift - self.cut.tool.addendum
 
     @cached_property
     def _u(self) -> float:
         """Distance of the rounding's centre from the middle of the tool's tooth, in the transverse section."""
-        return max(0.0, self._cut.tool.rounding_center(self.pressure_angle)) / math.cos(self.helix_angle)
+        return max(0.0, self.cut.tool.rounding_center(self.cut.pressure_angle)) / math.cos(self.cut.helix_angle)
 
     @property
     def _at_base(self) -> float:
         """Half the angle of the space on the base circle, where the involute begins; negative where spaces overlap."""
-        return self._cut.half_space_at_base
+        return self.cut.half_space_at_base
 
     @cached_property
     def _top(self) -> float:
-        half_pitch = math.pi / self.teeth
+        half_pitch = math.pi / self.cut.teeth
         tip = self.tip_radius / self.module
         if half_pitch <= self._at_base:
             return self._base
@@ -205,20 +169,18 @@ class ToothProfile:
 
     @property
     def _form(self) -> float:
-        return self._cut.form_radius
+        return self.cut.form_radius
 
     # Curves [mm], each over an array of its parameter
 
     def trochoid(self, normal: Reals) -> Points:
         """The root's rounding, over the direction b of the normal, then the path of a protuberance's corner."""
-        q, rho = self.tool_addendum - self.tool_rounding - self.shift, self.tool_rounding
-        held = np.minimum(normal, self._cut.last_normal)
-        below = q + rho * np.cos(held)
-        across = below * np.tan(held) * math.cos(self.helix_angle)
-        across = self._across(across, self._r - below, normal - held)
-        shifted = self._u + rho * np.sin(held) / math.cos(self.helix_angle) - across
-        points = self._r - below + 1j * across
-        return self.module * points * unit_vector(shifted / self._r)
+        rho, cosine = self.cut.tool.rounding, math.cos(self.cut.helix_angle)
+        held = np.minimum(normal, self.cut.last_normal)
+        below = self.cut.tool.addendum - rho - self.cut.shift + rho * np.cos(held)
+        across = self._across(below * np.tan(held) * cosine, self._r - below, normal - held)
+        shifted = self._u + rho * np.sin(held) / cosine - across
+        return self.module * (self._r - below + 1j * across) * unit_vector(shifted / self._r)
 
     def _across(self, across: Reals, above: Reals, rolled: Reals) -> Reals:
         """`RackCutRoot.corner_path` over arrays."""
@@ -240,9 +202,9 @@ class ToothProfile:
         tooth_edge = self._at_base + high - math.atan(high)
         return [
             (arc(self.root_radius), 0.0, self._u / self._r),
-            (self.trochoid, 0.0, self._cut.end_normal),
+            (self.trochoid, 0.0, self.cut.end_normal),
             (self.flank, low, high),
-            (arc(self.outer_radius), tooth_edge, math.pi / self.teeth),
+            (arc(self.outer_radius), tooth_edge, math.pi / self.cut.teeth),
         ]
 
 
@@ -303,7 +265,7 @@ def outline(profile: ToothProfile, chord_error: float, teeth: int | None = None,
         True
     """
     space = tooth_space(profile, chord_error)
-    count = profile.teeth if teeth is None else teeth
+    count = profile.cut.teeth if teeth is None else teeth
     turns = np.exp(1j * (first + profile.pitch_angle * np.arange(count)))
     points: Points = (turns[:, None] * space[None, :-1]).ravel()
     last = points[:1] if teeth is None else turns[-1:] * space[-1:]

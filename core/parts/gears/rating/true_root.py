@@ -36,6 +36,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.curves import arc
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.parts.gears.tooth.involute import involute, roll_at
+from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
@@ -112,16 +113,8 @@ class RootContour:
         teeth, tool = pair.teeth[gear] / turned, pair.tool(gear)
         top = pair.tip_radius[gear] if tip is None else tip
         height = (top - pair.reference_radius[gear]) / pair.module
-        profile = ToothProfile(
-            module=1.0,
-            teeth=cast(int, teeth),
-            shift=shift,
-            pressure_angle=pair.pressure_angle,
-            tip_radius=0.5 * teeth + height,
-            tool_addendum=tool.addendum,
-            tool_rounding=tool.rounding,
-            residual_undercut=tool.residual_undercut,
-        )
+        cut = RackCutRoot(teeth=cast(int, teeth), shift=shift, tool=tool, pressure_angle=pair.pressure_angle)
+        profile = ToothProfile(cut=cut, module=1.0, tip_radius=0.5 * teeth + height)
         _, (curve, start, end), *_ = profile.pieces()
         half = (math.pi / 2.0 - 2.0 * shift * math.tan(pair.pressure_angle)) / teeth
         return cls(

@@ -40,7 +40,7 @@ RING = {
 def drawn_fillet(pair: GearPair, gear: int) -> Points:
     """Points of a fillet, the x axis in the middle of a space, on the side of growing polar angles."""
     if pair.teeth[gear] < 0:
-        curve, low, high = next(piece[1:] for piece in RingProfile.of(pair).pieces() if piece[0] == "fillet")
+        curve, low, high = next(piece[1:] for piece in RingProfile(pair).pieces() if piece[0] == "fillet")
         return curve(np.linspace(low, high, 4001))
     curve, low, high = ToothProfile.of(pair, gear).pieces()[1]
     return curve(np.linspace(low, high, 4001))

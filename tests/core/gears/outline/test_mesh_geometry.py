@@ -80,7 +80,7 @@ def test_flanks_of_a_ring_and_its_pinion_touch_and_do_not_overlap():
     pair = GearPair(module=2.0, teeth=(21, -67), given_shift=(0.3, -0.2))
     mesh = MeshGeometry(pair)
     pinion = outline(ToothProfile.of(pair, 0), 1e-3) * np.exp(1j * mesh.first_space[0])
-    ring = RingProfile.of(pair).outline(60) * np.exp(1j * mesh.first_space[1]) + mesh.axes[1]
+    ring = RingProfile(pair).outline(60) * np.exp(1j * mesh.first_space[1]) + mesh.axes[1]
     assert len(mesh.contacts) >= 1
     for contact in mesh.contacts:
         assert to_line(contact, pinion) < 4e-3

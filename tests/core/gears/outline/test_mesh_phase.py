@@ -73,7 +73,7 @@ def test_teeth_in_a_ring_touch_and_do_not_cross(place: float) -> None:
     planet = -mesh.center_distance * np.exp(1j * psi) + outline(ToothProfile.of(pair, 0), 2.0 * _CHORD) * np.exp(
         1j * place
     )
-    ring = RingProfile.of(mesh).outline(40)
+    ring = RingProfile(mesh).outline(40)
     # The tips of the ring reach below the involute that a rack tool leaves the planet, by half a percent of a module.
     assert depth(planet, ring * np.exp(1j * turn), inside=False) < 0.01 * mesh.module
     assert depth(planet, ring * np.exp(1j * (turn + 0.1 * math.pi / 37.5)), inside=False) > 0.05 * mesh.module

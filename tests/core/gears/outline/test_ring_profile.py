@@ -94,7 +94,7 @@ def test_the_outline_is_the_envelope_of_the_rolling_cutter(keys: dict[str, Any])
     made = design(DATA | keys, command="gear")
     cutter, turns = Cutter(made), np.linspace(-0.9, 0.9, 9001)
     assert cutter.tip + cutter.distance == pytest.approx(abs(made.gear_pair.root_radius[1]), rel=1e-12)
-    for name, curve, low, high in RingProfile.of(made.gear_pair).pieces():
+    for name, curve, low, high in RingProfile(made.gear_pair).pieces():
         if name == "tip circle" or high <= low:
             continue
         deepest = cutter.reaches(curve(np.linspace(low, high, 9)), turns).max(axis=1)
@@ -119,7 +119,7 @@ def test_what_is_exported_is_what_is_cut(form: CurveForm) -> None:
     deepest = Cutter(made).reaches(nodes[::3], np.linspace(-0.9, 0.9, 9001)).max(axis=1)
     assert np.abs(deepest).max() < DEEP
     assert {"fillet", "involute"} <= {piece.stretch.name for piece in exported.pieces}
-    drawn = RingProfile.of(made.gear_pair).outline(24)
+    drawn = RingProfile(made.gear_pair).outline(24)
     assert np.abs(drawn).max() == pytest.approx(abs(made.gear_pair.root_radius[1]), rel=1e-12)
 
 
@@ -134,17 +134,17 @@ def test_where_the_cutter_has_no_involute_for_the_tips_of_the_ring() -> None:
         found = [each for each in made.check("involute-interference") if "its cutter" in each.message]
         assert [each.status for each in found] == ["fail"] * (status == "fail")
         assert all(each.code == "GL204" and each.value < 0.0 for each in found)
-    ring_flank = {name: (curve, low, high) for name, curve, low, high in RingProfile.of(made.gear_pair).pieces()}
+    ring_flank = {name: (curve, low, high) for name, curve, low, high in RingProfile(made.gear_pair).pieces()}
     curve, low, high = ring_flank["involute"]
     deepest = Cutter(made).reaches(curve(np.linspace(low, high, 9)), np.linspace(-0.9, 0.9, 9001)).max(axis=1)
     assert np.abs(deepest).max() < DEEP
 
 
 def test_without_its_cutter_a_ring_has_sharp_corners_and_flanks_that_may_meet() -> None:
-    sharp = RingProfile.of(design(DATA, command="gear").gear_pair)
+    sharp = RingProfile(design(DATA, command="gear").gear_pair)
     assert [name for name, *_ in sharp.pieces()] == ["root circle", "involute", "tip circle"]
     assert sharp.deepest == sharp.root
-    wide = RingProfile.of(design(DATA | {"profile_shift": [0, 0], "addendum": 1.4, "clearance": 1.0}).gear_pair)
+    wide = RingProfile(design(DATA | {"profile_shift": [0, 0], "addendum": 1.4, "clearance": 1.0}).gear_pair)
     assert wide.deepest < wide.root
     (_, flank, start, _) = wide.pieces()[1]
     assert np.angle(flank(np.array([start])))[0] == pytest.approx(0.0, abs=1e-9)
@@ -168,4 +168,4 @@ def test_the_greatest_rounding_fits() -> None:
     full = design(DATA | {"cutter": {"teeth": 25, "rounding": 0.3728}}, command="gear")
     cutter = Cutter(full)
     assert 0.0 <= cutter.beside < 2e-4
-    assert "root circle" in [name for name, *_ in RingProfile.of(full.gear_pair).pieces()]
+    assert "root circle" in [name for name, *_ in RingProfile(full.gear_pair).pieces()]

@@ -20,7 +20,9 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, half_tooth, outline, tooth_space
 from gearlink.core.parts.gears.tooth.involute import involute
+from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
 from gearlink.core.parts.gears.tooth.teeth import min_shift_no_undercut, min_teeth_no_undercut
+from gearlink.core.parts.gears.tooth.tools import RackTool
 
 EPS = 2.0**-52
 ALPHA = math.radians(20.0)
@@ -29,23 +31,17 @@ ALPHA = math.radians(20.0)
 def profile(teeth, shift=0.0, module=1.0, alpha=ALPHA, addendum=1.0, clearance=0.25, rounding=None):
     full = (math.pi / 4 - (addendum + clearance) * math.tan(alpha)) * math.cos(alpha) / (1 - math.sin(alpha))
     rho = min(clearance / (1 - math.sin(alpha)), full) if rounding is None else rounding
-    return ToothProfile(
-        module=module,
-        teeth=teeth,
-        shift=shift,
-        pressure_angle=alpha,
-        tip_radius=module * (teeth / 2 + addendum + shift),
-        tool_addendum=addendum + clearance,
-        tool_rounding=rho,
-    )
+    tool = RackTool(addendum=addendum + clearance, rounding=rho)
+    cut = RackCutRoot(teeth=teeth, shift=shift, tool=tool, pressure_angle=alpha)
+    return ToothProfile(cut=cut, module=module, tip_radius=module * (teeth / 2 + addendum + shift))
 
 
 def outside_tool(gear, points, roll):
     """Distance [module] of points of the gear from the rack tool at rolls of the gear; negative: cut away."""
-    r, alpha, rho = gear.teeth / 2, gear.pressure_angle, gear.tool_rounding
+    r, alpha, rho = gear.cut.teeth / 2, gear.cut.pressure_angle, gear.cut.tool.rounding
     w = points[:, None] / gear.module * np.exp(1j * roll)[None, :]
-    depth, lateral = r + gear.shift - w.real, np.abs(w.imag - r * roll[None, :])
-    floor = gear.tool_addendum - rho
+    depth, lateral = r + gear.cut.shift - w.real, np.abs(w.imag - r * roll[None, :])
+    floor = gear.cut.tool.addendum - rho
     corner = math.pi / 4 - floor * math.tan(alpha) - rho / math.cos(alpha)
     # the tool's tooth is what lies within rho of this trapezoid without lower end
     below, beside = depth - floor, lateral - corner
@@ -92,7 +88,7 @@ def test_undercut_ends_at_the_minimum_number_of_teeth(shift):
 def test_form_radius_is_that_of_the_standard(teeth, shift):
     """DIN 3960: d_Ff^2 = (d sin(alpha) - 2 (h_Ff - x) m/sin(alpha))^2 + d_b^2, h_Ff the tool's straight flank."""
     gear = profile(teeth, shift, module=3.0)
-    straight = gear.tool_addendum - gear.tool_rounding * (1 - math.sin(ALPHA))
+    straight = gear.cut.tool.addendum - gear.cut.tool.rounding * (1 - math.sin(ALPHA))
     half = gear.reference_radius * math.sin(ALPHA) - (straight - shift) * 3.0 / math.sin(ALPHA)
     assert gear.form_radius == pytest.approx(math.hypot(half, gear.base_radius), rel=64 * EPS)
 
@@ -224,7 +220,7 @@ def test_failures_name_the_limit(arguments, words):
 
 def test_a_gear_without_involute_is_refused():
     with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* increase"):
-        ToothProfile(module=1.0, teeth=12, shift=0.0, pressure_angle=ALPHA, tip_radius=5.65)
+        ToothProfile(cut=RackCutRoot(teeth=12, shift=0.0, tool=RackTool()), module=1.0, tip_radius=5.65)
     with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* reduce"):
         profile(12, 4.0)
     # pushed apart, the tip shortened into the root: less shift is the way out
