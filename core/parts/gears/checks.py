@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import reduce
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.remedies.ways import Way, down, up
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above
@@ -22,6 +22,7 @@ from gearlink.core.parts.gears.codes import (
 from gearlink.core.parts.gears.drawing_names import GEARS, Roles
 
 if TYPE_CHECKING:
+    from gearlink.core.base.spec import GearLimits as Limits
     from gearlink.core.parts.gears.mesh.pair import GearPair
     from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 
@@ -83,19 +84,6 @@ def gear_ways(*teeth: Way, angle: str = "gears.pressure_angle") -> dict[str, tup
     }
 
 
-class Limits(Protocol):
-    """What the checks read of a spec's `limits`."""
-
-    @property
-    def undercut(self) -> float: ...
-    @property
-    def tip_thickness(self) -> float: ...
-    @property
-    def contact_ratio(self) -> float: ...
-    @property
-    def sliding(self) -> float | None: ...
-
-
 def gear_quantity(pair: GearPair, name: str) -> Any:
     """A quantity of a pair, or None where the teeth have none: no bound of the sliding where a tip reaches the
     mate's base tangent point.
@@ -113,36 +101,38 @@ def gear_quantity(pair: GearPair, name: str) -> Any:
     return shown(name, value)
 
 
+def of_mesh(mesh: str, found: Iterable[Check]) -> list[Check]:
+    """Findings on a mesh, which begin with its name in a design with several."""
+    before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
+    return [check._replace(what=before + check.what) for check in found]
+
+
 def gear_check(
-    name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False, roles: Roles = GEARS
+    name: str, pair: GearPair, limits: Limits, shifts: bool = False, roles: Roles = GEARS
 ) -> Iterator[Check]:
     """The findings of one of GEAR_CHECKS on a pair.
 
     Parameters
         name : str - one of GEAR_CHECKS
         limits : the `limits` section of a spec
-        mesh : str - name of the mesh in a design with several, put before the message
         shifts : bool - the design file has keys of the profile shifts, which messages may then name
         roles : (str, str) - what messages call the two gears
     Source
         ISO 21771 for the quantities; limits are usual practice (tip thickness, contact ratio, clearance, sliding)
     """
-    before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
     if name == CONTACT_RATIO.name:
         remedy = "use more teeth or less profile shift" if shifts else "use more teeth or a smaller pressure angle"
-        yield contact_check(pair.contact_ratio, limits, f"{before}contact ratio", remedy)
+        yield contact_check(pair.contact_ratio, limits, "contact ratio", remedy)
         return
     for gear in (0, 1):
-        which = _Gear(pair, gear, before, shifts, roles)
-        yield from _OF_ONE_GEAR[name](which, limits)
+        yield from _OF_ONE_GEAR[name](_Gear(pair, gear, shifts, roles), limits)
 
 
 class _Gear(NamedTuple):
-    """A gear of a pair, what its messages begin with, whether they may name shifts, and what they call both gears."""
+    """A gear of a pair, whether its messages may name shifts, and what they call both gears."""
 
     pair: GearPair
     place: int
-    before: str
     shifts: bool
     roles: Roles
 
@@ -156,7 +146,7 @@ class _Gear(NamedTuple):
 
     def named(self, part: str = "") -> str:
         """The gear, or a part of it, in words."""
-        return f"{self.before}{part}{self.roles[self.place]}"
+        return part + self.roles[self.place]
 
     @property
     def mate(self) -> str:
@@ -233,21 +223,14 @@ def contact_check(ratio: float, limits: Any, subject: str, remedy: str) -> Check
     return CONTACT_RATIO.below(*found, "1", subject, remedy)
 
 
-def _contact_measure(pair: GearPair, _gear: int, limits: Limits) -> Measured:
-    return contact_measure(pair.contact_ratio, limits)
-
-
 def _undercut_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
     return Measured(pair.profile_shift[gear] - pair.min_shift_of(gear), -limits.undercut, 0.0)
 
 
-def _tip_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
+def tip_measure(width: float, module: float, limits: Any) -> Measured:
+    """A tip's thickness over the module beside its limits."""
     limit = limits.tip_thickness
-    return Measured(pair.tip_thickness[gear] / pair.module, limit, limit + _USUAL_TIP)
-
-
-def _interference_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
-    return Measured(pair.interference_margin[gear], 0.0, 0.0)
+    return Measured(width / module, limit, limit + _USUAL_TIP)
 
 
 def _clearance_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
@@ -279,17 +262,15 @@ _NO_FORM = {
 """What a tooth lacks of which a part is 0 or less, and what would give it back."""
 
 
-def _form_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
-    return Measured(reduce(pair.fn.least, form_parts(pair, gear).values()), 0.0, 0.0)
-
-
 _MEASURES: dict[str, Callable[[GearPair, int, Limits], Measured]] = {
     UNDERCUT.name: _undercut_measure,
-    TIP_THICKNESS.name: _tip_measure,
-    CONTACT_RATIO.name: _contact_measure,
-    INTERFERENCE.name: _interference_measure,
+    TIP_THICKNESS.name: lambda pair, gear, limits: tip_measure(pair.tip_thickness[gear], pair.module, limits),
+    CONTACT_RATIO.name: lambda pair, _gear, limits: contact_measure(pair.contact_ratio, limits),
+    INTERFERENCE.name: lambda pair, gear, _limits: Measured(pair.interference_margin[gear], 0.0, 0.0),
     ROOT_CLEARANCE.name: _clearance_measure,
-    TOOTH_FORM.name: _form_measure,
+    TOOTH_FORM.name: lambda pair, gear, _limits: Measured(
+        reduce(pair.fn.least, form_parts(pair, gear).values()), 0.0, 0.0
+    ),
 }
 
 
@@ -328,7 +309,7 @@ def tip_check(found: Measured, subject: str, teeth: str, fix: str) -> Check:
 def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found, tip = gear.measured(INTERFERENCE.name, limits), gear.named("tip of ")
     remedy = (
-        f"increase the profile shift of {gear.mate} or reduce the addendum of {gear.roles[gear.place]}"
+        f"increase the profile shift of {gear.mate} or reduce the addendum of {gear.named()}"
         if gear.shifts
         else f"use more teeth on {gear.mate}, or a larger pressure angle"
     )
@@ -364,7 +345,7 @@ def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
         return
     lacks, fix = _NO_FORM[part]
     fix = fix or f"bring its profile shift {gear.of('profile_shift'):.4g} nearer to 0"
-    what = f"{gear.before}{lacks.format(gear.roles[gear.place])}: no tool can cut them"
+    what = f"{lacks.format(gear.named())}: no tool can cut them"
     fix = fix if gear.shifts else "use more teeth"
     yield TOOTH_FORM.check("fail", what, worst, 0.0, "mm", shown=NO_NUMBER, fix=fix)
 

@@ -9,12 +9,12 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status
 from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.gears import strength_checks
-from gearlink.core.parts.gears.checks import FILLET_NOISE, Limits, contact_check, fouling_check, gear_check
+from gearlink.core.parts.gears.checks import FILLET_NOISE, contact_check, fouling_check, gear_check, of_mesh
 from gearlink.core.parts.gears.codes import (
     AT_LIMITS,
     BACKLASH,
@@ -42,13 +42,6 @@ _DEEPEST = "the gears deepest in mesh"
 _CLOSER = "reduce center_distance_allowance"
 
 
-class DistanceLimits(Protocol):
-    """What the checks read of a spec's `limits`."""
-
-    @property
-    def contact_ratio(self) -> float: ...
-
-
 def moved(pair: GearPair, off: float) -> GearPair:
     """The same two gears with their axes so much [mm] farther from meshing deeply; negative: deeper in each other.
 
@@ -74,7 +67,7 @@ def moved(pair: GearPair, off: float) -> GearPair:
     )
 
 
-def distance_limits(name: str, data: GearData, limits: DistanceLimits) -> Iterator[Check]:
+def distance_limits(name: str, data: GearData, limits: Any) -> Iterator[Check]:
     """What fails at a limit of the centre distance and holds at the nominal one; nothing where it holds.
 
     Parameters
@@ -88,14 +81,14 @@ def distance_limits(name: str, data: GearData, limits: DistanceLimits) -> Iterat
         yield from _OF_DISTANCE[name](data, data.distance_allowance, limits)
 
 
-def _interrupted(data: GearData, off: float, limits: DistanceLimits) -> Iterator[Check]:
+def _interrupted(data: GearData, off: float, limits: Any) -> Iterator[Check]:
     apart = moved(data.pair, off)
     helical = data.pair.helix_angle != 0.0
     overlap = (data.path.overlap_ratio or 0.0) if helical else 0.0
     yield from _no_drive(apart.contact_ratio + overlap, data.pair.contact_ratio + overlap, limits.contact_ratio)
 
 
-def _tips_on_roots(data: GearData, off: float, _limits: DistanceLimits) -> Iterator[Check]:
+def _tips_on_roots(data: GearData, off: float, _limits: Any) -> Iterator[Check]:
     pair, deep = data.pair, moved(data.pair, -off)
     for gear in (0, 1):
         by_cutter = pair.teeth[gear] < 0 and pair.cutter is not None
@@ -105,14 +98,14 @@ def _tips_on_roots(data: GearData, off: float, _limits: DistanceLimits) -> Itera
             yield _on_root(room, data.called(1 - gear), data.called(gear))
 
 
-def _tips_beyond(data: GearData, off: float, _limits: DistanceLimits) -> Iterator[Check]:
+def _tips_beyond(data: GearData, off: float, _limits: Any) -> Iterator[Check]:
     deep = moved(data.pair, -off)
     for gear, (margin, nominal) in enumerate(zip(deep.interference_margin, data.pair.interference_margin, strict=True)):
         if margin < 0.0 <= nominal:
             yield _beyond(margin, data.called(gear))
 
 
-def _fouling(data: GearData, off: float, _limits: DistanceLimits) -> Iterator[Check]:
+def _fouling(data: GearData, off: float, _limits: Any) -> Iterator[Check]:
     if not data.pair.internal:
         return
     from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
@@ -131,7 +124,7 @@ def _room(internal: InternalInterference) -> float:
     return apart if apart < 0.0 or margin is None else margin
 
 
-def rack_limits(name: str, rack: RackMesh, limits: DistanceLimits) -> Iterator[Check]:
+def rack_limits(name: str, rack: RackMesh, limits: Any) -> Iterator[Check]:
     """The same of a gear on a rack: off its datum line the line of action keeps its direction."""
     data, pair = rack.data, rack.pair
     off, sine = data.distance_allowance, math.sin(pair.transverse_pressure_angle)
@@ -178,7 +171,7 @@ def _beyond(margin: float, tips: str) -> Check:
     return INTERFERENCE.check("fail", what, margin, 0.0, "mm", name=name, overlap=what, at=_DEEPEST, fix=_CLOSER)
 
 
-_OF_DISTANCE: dict[str, Callable[[GearData, float, DistanceLimits], Iterator[Check]]] = {
+_OF_DISTANCE: dict[str, Callable[[GearData, float, Any], Iterator[Check]]] = {
     CONTACT_RATIO.checks[1]: _interrupted,
     INTERFERENCE.checks[1]: _tips_beyond,
     ROOT_CLEARANCE.checks[1]: _tips_on_roots,
@@ -237,29 +230,7 @@ _NEGATIVE = -1e-6
 """Backlash below it, in modules, is none."""
 
 
-class DrawingLimits(Protocol):
-    """What the checks read of a spec's `limits`."""
-
-    @property
-    def contact_ratio(self) -> float: ...
-    @property
-    def backlash(self) -> float: ...
-    @property
-    def safety_pitting(self) -> float: ...
-    @property
-    def safety_bending(self) -> float: ...
-    @property
-    def safety_scuffing(self) -> float: ...
-
-
-class PairLimits(Limits, DrawingLimits, Protocol):
-    """What all checks of a pair read of a spec's `limits`."""
-
-    @property
-    def contact_ratio(self) -> float: ...
-
-
-def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: bool = False) -> Iterator[Check]:
+def drawing_check(name: str, data: GearData, limits: Any, *, radial: bool = False) -> Iterator[Check]:
     """The findings of one of DRAWING_CHECKS on a pair.
 
     Parameters
@@ -277,7 +248,7 @@ def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: b
 
 
 def pair_check(
-    name: str, data: GearData, limits: PairLimits, *, mesh: str = "", shifts: bool = True, radial: bool = False
+    name: str, data: GearData, limits: Any, *, mesh: str = "", shifts: bool = True, radial: bool = False
 ) -> list[Check]:
     """The findings of one of GEAR_CHECKS or DRAWING_CHECKS on a pair of gears.
 
@@ -290,23 +261,14 @@ def pair_check(
         ISO 21771 for the quantities
     """
     if name in DRAWING_CHECKS or name == TRUE_FILLET.name:
-        before = before_mesh(mesh)
-        found = drawing_check(name, data, limits, radial=radial)
-        return [check._replace(what=before + check.what) if before else check for check in found]
+        return of_mesh(mesh, drawing_check(name, data, limits, radial=radial))
     if name == CONTACT_RATIO.name and (helical := helical_contact(data, limits)):
-        return [helical]
-    checks = list(gear_check(name, data.pair, limits, mesh, shifts, data.roles))
-    if name == INTERFERENCE.name:
-        checks += [check._replace(what=before_mesh(mesh) + check.what) for check in tip_beyond_cutter(data)]
-    return checks
+        return of_mesh(mesh, [helical])
+    found = [*gear_check(name, data.pair, limits, shifts, data.roles)]
+    return of_mesh(mesh, [*found, *(tip_beyond_cutter(data) if name == INTERFERENCE.name else ())])
 
 
-def before_mesh(mesh: str) -> str:
-    """What findings on a mesh of a design with several begin with."""
-    return f"{mesh.replace('_', '-')} mesh: " if mesh else ""
-
-
-def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
+def helical_contact(data: GearData, limits: Any) -> Check | None:
     """What GL203 says of a helical pair whose width is known: the total contact ratio counts; else None."""
     total = data.path.total_contact_ratio
     if data.pair.helix_angle == 0.0 or total is None:
@@ -319,7 +281,7 @@ def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
     return CONTACT_RATIO.check("warn", "transverse contact ratio", transverse, 1.0, aside=aside, fix=remedy)
 
 
-def _tip_fouling(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+def _tip_fouling(data: GearData, _limits: Any) -> Iterator[Check]:
     if data.internal is not None:
         yield from fouling_check(data.internal)
 
@@ -344,7 +306,7 @@ def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
     yield TIP_FOULING.check(status, what, None, 0.0, "mm", name=name, fix=fix)
 
 
-def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+def _fillet(data: GearData, _limits: Any) -> Iterator[Check]:
     for gear in (0, 1):
         yield from _fillet_of(data, gear)
 
@@ -421,7 +383,7 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     yield FILLET.check(status, what, found.margin, found.limit, "mm", shown=shown, aside=aside, fix=fix)
 
 
-def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+def _backlash(data: GearData, limits: Any) -> Iterator[Check]:
     if data.backlash is None:
         return
     least, greatest = data.backlash.normal
@@ -443,7 +405,7 @@ def backlash_check(least: float, greatest: float, limit: float, module: float, j
     return BACKLASH.check(status, "minimum theoretical normal backlash", least, limit, "mm", aside=aside, fix=fix)
 
 
-def _inspection(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+def _inspection(data: GearData, _limits: Any) -> Iterator[Check]:
     for gear in data.measured:
         diameter = data.pins[gear]
         found = None if diameter is None else _amiss(data, gear)
@@ -494,7 +456,7 @@ def _amiss(data: GearData, gear: int) -> str | None:
     return f"lies below the tips of {name}" if sign * (center - tip) + 0.5 * ball.diameter < 0.0 else None
 
 
-_OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
+_OF_PAIR: dict[str, Callable[[GearData, Any], Iterator[Check]]] = {
     "tip-fouling": _tip_fouling,
     "fillet-interference": _fillet,
     "backlash": _backlash,

@@ -27,12 +27,12 @@ from gearlink.core.base.wording import short
 from gearlink.core.parts.gears.checks import (
     FILLET_NOISE,
     GEAR_QUANTITIES,
-    Measured,
     contact_check,
     gear_check,
     gear_quantity,
     most_sliding,
     tip_check,
+    tip_measure,
 )
 from gearlink.core.parts.gears.codes import AT_LIMITS, FILLET, INTERFERENCE, SLIDING
 from gearlink.core.parts.gears.data import GearData
@@ -75,7 +75,6 @@ _OWN = frozenset(
 """Quantities that stand here under their own names."""
 _OF_TOOTH = ("undercut", "tip-thickness", "tooth-form", "root-clearance")
 _OF_PAIR = ("inspection", "pitting", "bending")
-_USUAL_TIP = 0.15
 
 
 def beside_a_rack(pair: dict[str, Any], first: float) -> GearPair:
@@ -290,10 +289,8 @@ def _contact(where: str) -> tuple[str, str]:
 
 
 def _tip(rack: RackMesh, limits: Any) -> Iterator[Check]:
-    share, limit = rack.tip_width / rack.pair.module, limits.tip_thickness
-    subject = "tip width of the rack over the module"
-    found = Measured(share, limit, limit + _USUAL_TIP)
-    yield tip_check(found, subject, "the teeth of the rack", "reduce the addendum")
+    found = tip_measure(rack.tip_width, rack.pair.module, limits)
+    yield tip_check(found, "tip width of the rack over the module", "the teeth of the rack", "reduce the addendum")
 
 
 def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:

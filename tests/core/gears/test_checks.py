@@ -16,7 +16,16 @@ from pydantic import ValidationError
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec import GearLimits
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, contact_check, gear_check, gear_quantity
+from gearlink.core.parts.gears.checks import (
+    GEAR_CHECKS,
+    GEAR_QUANTITIES,
+    contact_check,
+    gear_check,
+    gear_quantity,
+    of_mesh,
+)
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.drawing_checks import pair_check
 from gearlink.core.parts.gears.mesh.pair import GearPair
 
 LIMITS = GearLimits()
@@ -31,7 +40,15 @@ design = partial(factory.design, {"kind": "gear-pair", "module": 3.0, "teeth": [
 
 
 def checks(name, pair, limits=LIMITS, mesh=""):
-    return list(gear_check(name, pair, limits, mesh, shifts=True))
+    return of_mesh(mesh, gear_check(name, pair, limits, shifts=True))
+
+
+def test_findings_on_a_mesh_begin_with_its_name() -> None:
+    helical = GearPair(module=2.0, teeth=(20, 40), helix_angle=0.3, given_shift=(0.0, 0.0))
+    found = pair_check("contact-ratio", GearData(pair=helical, face_width=(20.0, 20.0)), LIMITS, mesh="crank_idler")
+    found += checks("tip-thickness", pair_of((8, 60), (1.6, 0.0)), mesh="crank_idler")
+    assert [each.what.partition(":")[0] for each in found] == ["crank-idler mesh"] * 3
+    assert "pointed" in found[1].what
 
 
 # Undercut

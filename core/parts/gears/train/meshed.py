@@ -28,6 +28,7 @@ from gearlink.core.parts.gears.checks import (
     gear_check,
     gear_quantity,
     gear_ways,
+    of_mesh,
 )
 from gearlink.core.parts.gears.codes import (
     AT_LIMITS,
@@ -95,12 +96,10 @@ def mesh_checks(
     Source
         ISO 21771 for the quantities
     """
-    if not mesh.internal:
-        return (
-            [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts, roles))
-        )
-    before = f"{label.replace('_', '-')} mesh: " if label else ""
-    return [check._replace(what=before + check.what) for check in _in_ring(name, mesh, limits, in_ring)]
+    if mesh.internal:
+        return of_mesh(label, _in_ring(name, mesh, limits, in_ring))
+    of_rings = name in (TIP_FOULING.name, RING_TIPS)
+    return [] if of_rings else of_mesh(label, gear_check(name, mesh, limits, shifts, roles))
 
 
 def _in_ring(name: str, mesh: GearPair, limits: Any, roles: Roles) -> Iterator[Check]:

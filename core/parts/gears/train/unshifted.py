@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.core.base.design_axis import Findings
 from gearlink.core.numerics.arrays import Reals, distinct
-from gearlink.core.parts.gears.checks import Limits, contact_measure, gear_check, most_sliding
+from gearlink.core.parts.gears.checks import contact_measure, gear_check, most_sliding
 from gearlink.core.parts.gears.codes import (
     CONTACT_RATIO,
     INTERFERENCE,
@@ -27,6 +27,9 @@ from gearlink.core.parts.gears.codes import (
     UNDERCUT,
 )
 from gearlink.core.parts.gears.mesh.pair import GearPair
+
+if TYPE_CHECKING:
+    from gearlink.core.base.spec import GearLimits
 
 _LENGTHS = (
     "reference_radius",
@@ -79,7 +82,7 @@ class UnshiftedMeshes:
         Agrees with `GearPair` to a few ulp; the checks of one gear are `gear_check`'s own.
     """
 
-    def __init__(self, pressure_angle: float, limits: Limits) -> None:
+    def __init__(self, pressure_angle: float, limits: GearLimits) -> None:
         self._angle, self._limits = pressure_angle, limits
         self._place = np.full(MOST_TEETH + 1, -1, dtype=np.intp)
         self._rows: list[_Row] = []
@@ -124,7 +127,7 @@ class Mesh:
     """Meshes over arrays; made by `UnshiftedMeshes`."""
 
     pressure_angle: float
-    limits: Limits
+    limits: GearLimits
     teeth: tuple[Reals, Reals]
     module: Reals
     rows: tuple[_Gears, _Gears]
