@@ -13,7 +13,7 @@ from gearlink.core.parts.gears.drawing_names import GEARS, PLACES, Roles
 from gearlink.core.parts.gears.measures.inspection import Ball, chord, preferred_pin
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair, by_gear
 from gearlink.core.parts.gears.rating.flank_strength import FlankStrength
 from gearlink.core.parts.gears.rating.load import Factors, Load, Material, Required
 from gearlink.core.parts.gears.rating.root_stress import RootStress
@@ -35,15 +35,8 @@ _LIVES = frozenset(("pitting_life", "bending_life"))
 _REQUIRED = Required()
 MAGNITUDES = frozenset(
     (
-        "center_distance",
-        "reference_center_distance",
-        "reference_radius",
-        "base_radius",
-        "working_radius",
-        "tip_radius",
-        "root_radius",
-        "used_root_radius",
-        "form_radius",
+        *("center_distance", "reference_center_distance", "reference_radius", "base_radius", "working_radius"),
+        *("tip_radius", "root_radius", "used_root_radius", "form_radius"),
     )
 )
 
@@ -105,11 +98,7 @@ class GearData:
     @cached_property
     def pin_diameter(self) -> Both:
         """D of the balls that measure each gear [mm]."""
-        return self._pin(0), self._pin(1)
-
-    def _pin(self, gear: int) -> float | None:
-        given = self.pins[gear]
-        return preferred_pin(self.pair, gear) if given is None else given
+        return by_gear(lambda gear: preferred_pin(self.pair, gear) if self.pins[gear] is None else self.pins[gear])
 
     def ball(self, gear: int, shift: float | None = None) -> Ball | None:
         """The ball in a space of a gear; None where it falls through."""
@@ -129,7 +118,7 @@ class GearData:
     @property
     def measure_over_balls(self) -> Both:
         """M over (in a ring between) two balls [mm]."""
-        return self._over_balls(0), self._over_balls(1)
+        return by_gear(self._over_balls)
 
     @property
     def measure_over_pins(self) -> Both:
@@ -139,7 +128,7 @@ class GearData:
 
     @cached_property
     def _chords(self) -> tuple[Pair, Pair]:
-        return chord(self.pair, 0), chord(self.pair, 1)
+        return by_gear(lambda gear: chord(self.pair, gear))
 
     @property
     def chordal_thickness(self) -> Pair:
@@ -154,7 +143,7 @@ class GearData:
     @cached_property
     def generating_shift(self) -> tuple[Pair, Pair] | None:
         """x_E of each gear, minimum and maximum [module]: x + E_sn/(2 m tan(alpha_n))."""
-        return None if self.allowances is None else (self._generated(0), self._generated(1))
+        return None if self.allowances is None else by_gear(self._generated)
 
     def _generated(self, gear: int) -> Pair:
         assert self.allowances is not None
@@ -184,7 +173,7 @@ class GearData:
             low, high = sorted(self.pair.span_over(gear, count, shift) for shift in shifts[gear])
             return low, high
 
-        return ends(0), ends(1)
+        return by_gear(ends)
 
     @cached_property
     def measure_limits(self) -> tuple[Both | None, Both | None] | None:
@@ -198,7 +187,7 @@ class GearData:
             known = sorted(each for each in found if each is not None)
             return (known[0], known[1]) if len(known) == 2 else None
 
-        return ends(0), ends(1)
+        return by_gear(ends)
 
     @cached_property
     def backlash(self) -> Backlash | None:
@@ -285,17 +274,14 @@ class GearData:
             return None
         from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
 
-        sizes = zip(self.pair.reference_radius, self.face_width, strict=True)
+        grade, widths, pair = self.accuracy_grade, self.face_width, self.pair
+        diameters = [2.0 * abs(radius) for radius in pair.reference_radius]
         try:
-            one, other = (
-                ToothTolerances(
-                    grade=self.accuracy_grade, module=self.pair.module, diameter=2.0 * abs(radius), width=width
-                )
-                for radius, width in sizes
+            return by_gear(
+                lambda i: ToothTolerances(grade=grade, module=pair.module, diameter=diameters[i], width=widths[i])
             )
         except NoSolution:
             return None
-        return one, other
 
     @property
     def factors(self) -> Factors:
@@ -329,7 +315,7 @@ class GearData:
         """The roots as they are generated, for the boundary integral; None of one that is not known."""
         from gearlink.core.parts.gears.rating.true_root import true_root
 
-        return true_root(self, 0), true_root(self, 1)
+        return by_gear(lambda gear: true_root(self, gear))
 
     @property
     def generated_root_factor(self) -> Both:

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.keys.pair import PairKeys
     from gearlink.core.parts.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
     from gearlink.core.parts.gears.keys.types import MaterialSpec
-    from gearlink.core.parts.gears.rack import RackData, RackMesh
-    from gearlink.core.parts.gears.rating.conditions import Conditions
+    from gearlink.core.parts.gears.rack import RackMesh
 
 _MOST_SHIFT = 5.0
 _AGREE = 1e-6
@@ -33,23 +32,11 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     Raises
         NoSolution - where the teeth cannot mesh
     """
-    known: dict[str, Any] = {
-        "module": spec.module,
-        "teeth": tuple(spec.teeth),
-        "pressure_angle": math.radians(spec.pressure_angle),
-        "helix_angle": math.radians(spec.helix_angle),
-        "addendum": spec.addendum,
-        "clearance": spec.clearance,
-        "given_spans": as_pair(spec.span_teeth) or (None, None),
-        "tip": as_pair(spec.tip_shortening),
-        "given_tip_radius": None
-        if spec.tip_diameter is None
-        else (0.5 * spec.tip_diameter[0], 0.5 * spec.tip_diameter[1]),
-    }
+    known = _of_teeth(spec, tuple(spec.teeth)) | {"given_spans": as_pair(spec.span_teeth) or (None, None)}
+    if spec.tip_diameter is not None:
+        known["given_tip_radius"] = (0.5 * spec.tip_diameter[0], 0.5 * spec.tip_diameter[1])
     if spec.cutter is not None:
         known["cutter"] = PinionCutter(**spec.cutter.model_dump())
-    with at_key("tool"):
-        known["tools"] = tools_of(spec)
     if spec.rack:
         return _on_rack(spec, known)
     shift, distance = spec.profile_shift, spec.center_distance
@@ -64,6 +51,22 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     with at_key("center_distance"):
         pair = GearPair(**known, given_shift=(shift[0], shift[1]), given_distance=distance)
     return _without_difference(pair)
+
+
+def _of_teeth(given: GearPairSpec | PairKeys, teeth: Any) -> dict[str, Any]:
+    """What a pair takes from the keys of its section, but for shifts and centre distance."""
+    with at_key("tool"):
+        tools = tools_of(given)
+    return {
+        "module": given.module,
+        "teeth": teeth,
+        "pressure_angle": math.radians(given.pressure_angle),
+        "helix_angle": math.radians(given.helix_angle),
+        "addendum": given.addendum,
+        "clearance": given.clearance,
+        "tip": as_pair(given.tip_shortening),
+        "tools": tools,
+    }
 
 
 def pair_at(
@@ -83,21 +86,8 @@ def pair_at(
         NoSolution - where the teeth cannot mesh
     """
     shift = as_pair(given.profile_shift)
-    with at_key("tool"):
-        tools = tools_of(given)
-    pair = GearPair(
-        module=given.module,
-        teeth=teeth,
-        pressure_angle=math.radians(given.pressure_angle),
-        helix_angle=math.radians(given.helix_angle),
-        addendum=given.addendum,
-        clearance=given.clearance,
-        tip=as_pair(given.tip_shortening),
-        tools=tools,
-        given_shift=shift,
-        given_distance=distance,
-        teeth_keys=teeth_keys,
-    )
+    known = _of_teeth(given, teeth)
+    pair = GearPair(**known, given_shift=shift, given_distance=distance, teeth_keys=teeth_keys)
     return pair if shift is None or distance is None else _without_difference(pair)
 
 
@@ -115,21 +105,7 @@ def rack_at(given: PairKeys, teeth: int) -> RackMesh:
     first, second = given.profile_shift or (0.0, 0.0)
     if second != 0.0:
         raise NoSolution("a rack has no shift", key="profile_shift[1]", fix="give profile_shift: [x1, 0]")
-    with at_key("tool"):
-        tools = tools_of(given)
-    pair = beside_a_rack(
-        {
-            "module": given.module,
-            "teeth": (teeth, teeth),
-            "pressure_angle": math.radians(given.pressure_angle),
-            "helix_angle": math.radians(given.helix_angle),
-            "addendum": given.addendum,
-            "clearance": given.clearance,
-            "tip": as_pair(given.tip_shortening),
-            "tools": tools,
-        },
-        first,
-    )
+    pair = beside_a_rack(_of_teeth(given, (teeth, teeth)), first)
     return RackMesh(data_of(given, pair, rack=True))  # type: ignore[arg-type]  # which makes it the data of a rack
 
 
@@ -190,31 +166,29 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair, *, rack: bool = False
         NoSolution - for allowances beyond the tables of their standards
     """
     rack = rack or getattr(spec, "rack", False)
-    return (_rack_data() if rack else GearData)(
+    made = GearData
+    if rack:
+        from gearlink.core.parts.gears.rack import RackData as made
+    materials = material_of(spec.material, 0), material_of(spec.material, 1)
+    conditions = None
+    if spec.rating is not None:
+        limits = tuple((each.contact_limit, each.bending_limit) for each in materials)
+        conditions = spec.rating.conditions(limits, spec.accuracy_grade)
+    return made(
         pair=pair,
         face_width=both(spec.face_width),
         pins=both(spec.pin_diameter) or (None, None),
         allowances=allowances_of(spec.allowances, pair, rack=rack),
         distance_allowance=_distance_allowance(spec, pair, rack=rack),
         load=load_of(spec.load),
-        materials=(material_of(spec.material, 0), material_of(spec.material, 1)),
+        materials=materials,
         edition=spec.edition,
         load_share=spec.load_share,
         rims=both(spec.rim_thickness) or (None, None),
         accuracy_grade=spec.accuracy_grade,
-        conditions=conditions_of(spec),
+        conditions=conditions,
         required=required_of(getattr(spec, "limits", None)),
     )
-
-
-def conditions_of(spec: GearPairSpec | PairKeys) -> Conditions | None:
-    """What the rating takes; None of a file without it."""
-    if spec.rating is None:
-        return None
-    materials = material_of(spec.material, 0), material_of(spec.material, 1)
-    limits = tuple((each.contact_limit, each.bending_limit) for each in materials)
-    found: Conditions = spec.rating.conditions(limits, spec.accuracy_grade)
-    return found
 
 
 def required_of(limits: Any) -> Required:
@@ -222,12 +196,6 @@ def required_of(limits: Any) -> Required:
     if limits is None:
         return Required()
     return Required(limits.safety_pitting, limits.safety_bending, limits.safety_scuffing)
-
-
-def _rack_data() -> type[RackData]:
-    from gearlink.core.parts.gears.rack import RackData
-
-    return RackData
 
 
 def allowances_of(given: AllowanceSpec | None, pair: GearPair, *, rack: bool = False) -> tuple[Pair, Pair] | None:

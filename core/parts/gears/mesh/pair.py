@@ -448,14 +448,18 @@ class GearPair(PitchPair):
         return min(self.interference_margin) > 0.0
 
     def min_shift_of(self, gear: int) -> float:
-        """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends."""
-        height = self._straight_height(gear)
-        return teeth.min_shift_no_undercut(self.teeth[gear], self.pressure_angle, height, self.helix_angle, self.fn)
+        """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends.
+
+        Source
+            own derivation: the cutter's tip line passes the point where the line of action touches the base circle
+        """
+        sine = self.fn.sin(self.transverse_pressure_angle)
+        return self._straight_height(gear) - self.teeth[gear] * sine**2 / 2.0 / self._cos_helix
 
     def min_teeth_of(self, gear: int) -> float:
         """z_min of an external gear, at its profile shift."""
-        height, shift = self._straight_height(gear), self.profile_shift[gear]
-        return teeth.min_teeth_no_undercut(shift, self.pressure_angle, height, self.helix_angle, self.fn)
+        height, sine = self._straight_height(gear), self.fn.sin(self.transverse_pressure_angle)
+        return 2.0 * self._cos_helix * (height - self.profile_shift[gear]) / sine**2
 
     def _straight_height(self, gear: int) -> float:
         """How far the straight flank of a gear's tool reaches below its datum line [module]."""
@@ -519,7 +523,8 @@ class GearPair(PitchPair):
         given, (z, x) = self.given_spans[gear], self._spanned(gear)
         if given is not None:
             return given
-        k = teeth.span_teeth(z, x, self.pressure_angle, self.helix_angle)
+        low, high = teeth.span_rivals(z, x, self.pressure_angle, self.helix_angle)
+        k = high[0] if high[1] < low[1] else low[0]
         form = self.form_radius[gear] if self.tools[gear] is not None else None
         if form is None:
             return k

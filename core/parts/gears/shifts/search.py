@@ -154,9 +154,8 @@ def _rank(each: Candidate) -> tuple[bool, float, bool, float]:
 
 
 def _pair(task: PairTask, module: float, teeth: tuple[int, int]) -> GearPair | None:
-    known = {"module": module, "teeth": teeth, "pressure_angle": task.pressure_angle, "helix_angle": task.helix_angle}
     try:
-        pair = GearPair(**known, given_distance=task.distance)  # type: ignore[arg-type]
+        pair = _placed(task, module, teeth)
         diagonal = Diagonal(pair)
         try:
             pair = diagonal.at(diagonal.equal_sliding().first)
@@ -166,6 +165,11 @@ def _pair(task: PairTask, module: float, teeth: tuple[int, int]) -> GearPair | N
     except NoSolution:
         return None
     return pair
+
+
+def _placed(task: PairTask, module: float, teeth: tuple[int, int]) -> GearPair:
+    alpha, beta = task.pressure_angle, task.helix_angle
+    return GearPair(module=module, teeth=teeth, pressure_angle=alpha, helix_angle=beta, given_distance=task.distance)
 
 
 def _candidate(task: PairTask, pair: GearPair) -> Candidate | None:
@@ -223,27 +227,10 @@ def table_of(found: list[Candidate]) -> Table:
 _LEAST_WIDTH = 4.0
 """Of ISO 1328-1 [mm]."""
 _STEPS = 24
-_R20: tuple[float, ...] = (
-    10.0,
-    11.2,
-    12.5,
-    14.0,
-    16.0,
-    18.0,
-    20.0,
-    22.4,
-    25.0,
-    28.0,
-    31.5,
-    35.5,
-    40.0,
-    45.0,
-    50.0,
-    56.0,
-    63.0,
-    71.0,
-)
-_R20 += (80.0, 90.0)
+_R20 = (
+    10.0, 11.2, 12.5, 14.0, 16.0, 18.0, 20.0, 22.4, 25.0, 28.0, 31.5, 35.5, 40.0, 45.0, 50.0, 56.0, 63.0, 71.0, 80.0,
+    90.0,
+)  # fmt: skip
 DISTANCES = (*_R20, *(10.0 * each for each in _R20), 1000.0)
 """Centre distances that are tried [mm]: preferred numbers of the series R20."""
 _QUICK = (0.5, 0.75, 1.0)
@@ -328,7 +315,7 @@ def least_width(pair: GearPair, carried: Carried) -> tuple[float, float, float] 
 def _safe(pair: GearPair, carried: Carried, width: int) -> tuple[float, float] | None:
     """The lesser safeties with a width; None where one is below what is required, or is not known."""
     data = carried.data(pair, float(width))
-    found = []
+    found: list[float] = []
     # The flanks first: they decide most widths, in half the time that both take.
     for name, least in (("safety_pitting", carried.required.pitting), ("safety_bending", carried.required.bending)):
         try:
@@ -338,8 +325,7 @@ def _safe(pair: GearPair, carried: Carried, width: int) -> tuple[float, float] |
         if both is None or None in both or min(both) < least:
             return None
         found.append(min(both))
-    pitting, bending = found
-    return pitting, bending
+    return found[0], found[1]
 
 
 def carrying(task: PairTask, carried: Carried) -> list[Carrying]:
@@ -387,13 +373,7 @@ def _promising(task: PairTask, carried: Carried) -> Iterator[tuple[int, int]]:
     for module in task.modules:
         for teeth in pairs_of_teeth(task, module):
             try:
-                pair = GearPair(
-                    module=module,
-                    teeth=teeth,
-                    pressure_angle=task.pressure_angle,
-                    helix_angle=task.helix_angle,
-                    given_distance=task.distance,
-                )
+                pair = _placed(task, module, teeth)
                 most = math.floor(carried.width_ratio * 2.0 * pair.reference_radius[0])
                 widths = (math.floor(share * most) for share in _QUICK if share * most >= _LEAST_WIDTH)
                 if any(_safe(pair, relaxed, width) is not None for width in widths):

@@ -49,55 +49,6 @@ def rim_radius(root_radius: float, module: float, given: float | None = None) ->
     return abs(root_radius) + RIM_MODULES * module if given is None else given
 
 
-def min_shift_no_undercut(
-    teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: GearFunctions = SCALARS
-) -> float:
-    """Minimum profile shift at which a rack cutter does not undercut the tooth root.
-
-    x_min = h - z sin^2(alpha_t)/(2 cos(beta))
-
-    Parameters
-        teeth : int - number of teeth z
-        pressure_angle : float [rad] - of the reference profile, alpha_n
-        addendum : float [module] - h, how far the cutter's straight flank reaches below its datum line; usually h_a*
-        helix_angle : float [rad] - beta
-        f : GearFunctions - functions of numbers or of arrays
-    Returns
-        x_min : float [module] - negative where the gear tolerates a negative shift
-    Example
-        >>> round(min_shift_no_undercut(12, math.radians(20.0)), 6)
-        0.298133
-
-    Source
-        own derivation: the cutter's tip line passes the point where the line of action touches the base circle
-    """
-    alpha = transverse(pressure_angle, helix_angle, f)
-    return addendum - teeth * f.sin(alpha) ** 2 / 2.0 / f.cos(helix_angle)
-
-
-def min_teeth_no_undercut(
-    shift: float, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: GearFunctions = SCALARS
-) -> float:
-    """Number of teeth below which a rack cutter undercuts the tooth root at a profile shift.
-
-    z_min = 2 cos(beta) (h - x)/sin^2(alpha_t)
-
-    Parameters
-        shift : float [module] - profile shift x
-        pressure_angle, addendum, helix_angle, f : as of `min_shift_no_undercut`
-    Returns
-        z_min : float - not whole; below 0 where no gear is undercut
-    Example
-        >>> round(min_teeth_no_undercut(0.0, math.radians(20.0)), 3)
-        17.097
-
-    Source
-        the equation of `min_shift_no_undercut`, solved for the teeth
-    """
-    alpha = transverse(pressure_angle, helix_angle, f)
-    return 2.0 * f.cos(helix_angle) * (addendum - shift) / f.sin(alpha) ** 2
-
-
 def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *, what: str = "radius") -> float:
     """Rise of an involute's pressure angle from one radius to another.
 
@@ -196,33 +147,26 @@ def span_contact_radius(
     return f.hypot(base_radius, span * f.cos(base_helix_angle) / 2.0)
 
 
-def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0) -> int:
-    """Number of teeth whose span measurement touches the flanks nearest to the circle r + x m.
+def span_rivals(
+    teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0, f: GearFunctions = SCALARS
+) -> tuple[tuple[int, float], tuple[int, float]]:
+    """The two numbers of teeth whose span measurement may touch the flanks nearest to the circle r + x m.
 
     R_k = sqrt(r_b^2 + (W_k cos(beta_b)/2)^2), |R_k - (r + x m)| minimum
 
     Parameters
         teeth : int - number of teeth z
         shift : float [module] - profile shift x
-        pressure_angle : float [rad] - alpha_n
-        helix_angle : float [rad] - beta
+        pressure_angle, helix_angle : float [rad] - alpha_n, beta
     Returns
-        k : int - 2 <= k <= z; the smaller of two that are equally near
+        (k, distance), (k + 1, distance) - 2 <= k <= z; how far the contact lies from that circle [module]
     Notes
         Over one tooth there is nothing to measure: the planes would meet its flanks at the root alone.
         R_k grows with k, so that only the two whole numbers beside the exact solution compete.
     Example
-        >>> span_teeth(40, 0.0, math.radians(20.0)), span_teeth(72, 0.29, math.radians(20.0))
-        (5, 9)
+        >>> [k for k, _ in span_rivals(40, 0.0, math.radians(20.0))]
+        [4, 5]
     """
-    low, high = span_rivals(teeth, shift, pressure_angle, helix_angle)
-    return high[0] if high[1] < low[1] else low[0]
-
-
-def span_rivals(
-    teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0, f: GearFunctions = SCALARS
-) -> tuple[tuple[int, float], tuple[int, float]]:
-    """The two numbers of `span_teeth` that compete, each with how far its contact lies from the circle r + x m."""
     base_helix = f.asin(f.sin(helix_angle) * f.cos(pressure_angle))
     radius = teeth / 2.0 / f.cos(helix_angle)
     base = radius * f.cos(transverse(pressure_angle, helix_angle, f))

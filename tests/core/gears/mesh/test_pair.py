@@ -143,7 +143,7 @@ def test_contact_ratios_of_the_thesis_gears():
     mesh = next(c for c in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"] if c["id"] == "mesh")
     for pair, eps in zip(mesh["inputs"]["pairs"], mesh["outputs"]["eps"], strict=True):
         assert GearPair.from_shift(2.0, tuple(pair)).contact_ratio == pytest.approx(eps, rel=1e-14, abs=0.0)
-    assert teeth.min_shift_no_undercut(mesh["outputs"]["zmin"], ALPHA) == pytest.approx(0.0, abs=1e-15)
+    assert GearPair.from_shift(2.0, (40, 72)).min_teeth_of(0) == pytest.approx(mesh["outputs"]["zmin"], rel=1e-15)
 
 
 def test_press_report_table():
@@ -310,11 +310,11 @@ def test_known_span_measurement():
 
 
 def test_undercut_limit_is_where_the_cutter_passes_the_base_tangent_point():
-    for z in (6, 12, 17, 40):
-        x = teeth.min_shift_no_undercut(z, ALPHA, 1.0)
+    shifts = {z: GearPair.from_shift(1.0, (z, 40)).min_shift_of(0) for z in (6, 12, 16, 17, 40)}
+    for z, x in shifts.items():
         depth = z / 2.0 - (z / 2.0 * math.cos(ALPHA)) * math.cos(ALPHA)  # pitch line to base tangent point
         assert 1.0 - x == pytest.approx(depth, rel=1e-14, abs=0.0)
-    assert teeth.min_shift_no_undercut(17, ALPHA) < teeth.min_shift_no_undercut(16, ALPHA)
+    assert shifts[17] < shifts[16]
 
 
 def test_the_shift_sum_without_backlash_is_not_called_that_of_given_shifts():

@@ -21,7 +21,6 @@ from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, half_tooth, outline, tooth_space
 from gearlink.core.parts.gears.tooth.involute import involute
 from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
-from gearlink.core.parts.gears.tooth.teeth import min_shift_no_undercut, min_teeth_no_undercut
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 EPS = 2.0**-52
@@ -74,13 +73,13 @@ def test_tool_touches_every_point_and_cuts_none(teeth, shift):
 @pytest.mark.parametrize("teeth", [5, 12, 17, 18, 25, 72, 300])
 @pytest.mark.parametrize("shift", [-0.3, 0.0, 0.2, 0.6])
 def test_undercut_begins_at_the_least_shift(teeth, shift):
-    assert profile(teeth, shift).undercut == (shift < min_shift_no_undercut(teeth, ALPHA))
+    assert profile(teeth, shift).undercut == (shift < GearPair.from_shift(1.0, (teeth, 40)).min_shift_of(0))
 
 
 @pytest.mark.parametrize("shift", [-0.3, 0.0, 0.2, 0.6])
 def test_undercut_ends_at_the_minimum_number_of_teeth(shift):
     """The generated tooth of the next whole number has none, that of one tooth less has."""
-    least = math.ceil(min_teeth_no_undercut(shift, ALPHA))
+    least = math.ceil(GearPair.from_shift(1.0, (17, 40), (shift, 0.0)).min_teeth_of(0))
     assert (profile(least - 1, shift).undercut, profile(least, shift).undercut) == (True, False)
 
 
