@@ -13,7 +13,7 @@ from gearlink.core.parts.gears.drawing_names import GEARS, PLACES, Roles
 from gearlink.core.parts.gears.measures.inspection import Ball, chord, preferred_pin
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair, by_gear
+from gearlink.core.parts.gears.mesh.pitch_pair import Both, Pair, by_gear
 from gearlink.core.parts.gears.rating.flank_strength import FlankStrength
 from gearlink.core.parts.gears.rating.load import Factors, Load, Material, Required
 from gearlink.core.parts.gears.rating.root_stress import RootStress
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.rating.rated import Rated
     from gearlink.core.parts.gears.rating.true_root import TrueRoot
 
-Both = tuple[float | None, float | None]
 _OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
 """Of method C: for comparison with a rating that was made by it."""
 _LIVES = frozenset(("pitting_life", "bending_life"))

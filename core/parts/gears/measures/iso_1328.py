@@ -120,20 +120,22 @@ class ToothTolerances:
         return self._graded(0.3 * (m + 0.4 * math.sqrt(d)) + 4)
 
     @cached_property
-    def cumulative_pitch(self) -> float:
-        """F_p."""
+    def _pitch(self) -> float:
+        """F_p at grade 5, not rounded."""
         m, d, _ = self._means
         if self.edition == EDITION:
-            return self._graded(0.002 * d + 0.55 * math.sqrt(d) + 0.7 * m + 12)
-        return self._graded(0.3 * m + 1.25 * math.sqrt(d) + 7)
+            return 0.002 * d + 0.55 * math.sqrt(d) + 0.7 * m + 12
+        return 0.3 * m + 1.25 * math.sqrt(d) + 7
+
+    @cached_property
+    def cumulative_pitch(self) -> float:
+        """F_p."""
+        return self._graded(self._pitch)
 
     @cached_property
     def runout(self) -> float:
         """F_r = 0.8 F_p of the edition of 1995; of 2013 0.9 F_p."""
-        m, d, _ = self._means
-        if self.edition == EDITION:
-            return self._graded(0.9 * (0.002 * d + 0.55 * math.sqrt(d) + 0.7 * m + 12))
-        return self._graded(0.8 * (0.3 * m + 1.25 * math.sqrt(d) + 7))
+        return self._graded((0.9 if self.edition == EDITION else 0.8) * self._pitch)
 
     @cached_property
     def _profile(self) -> tuple[float, float]:

@@ -445,7 +445,7 @@ class GearPair(PitchPair):
     @property
     def slides(self) -> bool:
         """Whether both root ends of the flanks in contact lie on their involutes, where sliding has a bound."""
-        return min(self.interference_margin) > 0.0
+        return self.fn.least(*self.interference_margin) > 0.0
 
     def min_shift_of(self, gear: int) -> float:
         """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends.
@@ -537,8 +537,8 @@ class GearPair(PitchPair):
 
     def _spanned(self, gear: int) -> tuple[int, float]:
         """Teeth and shift of the external gear that a span measurement sees: the spaces of a ring are its teeth."""
-        z, x = self.teeth[gear], self.profile_shift[gear]
-        return (z, x) if z > 0 else (-z, -x)
+        sign = -1 if gear == 1 and self.internal else 1
+        return sign * self.teeth[gear], sign * self.profile_shift[gear]
 
     @cached_property
     def span_measurement(self) -> tuple[float, float | None]:

@@ -280,11 +280,6 @@ class GearPairs(GearPair):
         """None of them."""
         return False
 
-    @property
-    def keeps_clearance(self) -> bool:
-        """All of them."""
-        return True
-
     def _rise_to(self, radius: float, increase: float, _what: str = "radius") -> float:
         """NaN inside the base circle, and where a tip is shortened beyond the axis: R^2 may exceed r_b^2 there."""
         found = teeth.rise_between(radius, increase, self.transverse_pressure_angle, self.fn)
@@ -293,11 +288,6 @@ class GearPairs(GearPair):
     @property
     def tip_shortening(self) -> float:
         return 0.0 - self.tip_alteration[0]
-
-    @property
-    def slides(self) -> Any:
-        """Where both root ends of the flanks in contact lie on their involutes."""
-        return np.minimum(*self.interference_margin) > 0.0
 
     def _specific_sliding_of(self, gear: int) -> Any:
         return np.where(self.slides, self._sliding_at_root(gear), np.nan)
@@ -348,9 +338,6 @@ class GearPairs(GearPair):
         """Where two numbers of spanned teeth suit a gear equally well."""
         near = [(abs(low[1] - high[1]) < _NO_DISTANCE) & (low[0] != high[0]) for low, high in self._rivals]
         return near[0] | near[1]
-
-    def _spanned(self, gear: int) -> tuple[int, float]:
-        return self.teeth[gear], self.profile_shift[gear]
 
 
 @dataclass(frozen=True)
@@ -475,11 +462,6 @@ class RingPairs(GearPairs):
         return True
 
     @property
-    def keeps_clearance(self) -> bool:
-        """None of them."""
-        return False
-
-    @property
     def min_shift_no_undercut(self) -> Any:
         """x_min of the pinions; rings have none."""
         return self.min_shift_of(0), np.nan
@@ -512,10 +494,6 @@ class RingPairs(GearPairs):
         """As of external gears; a helical ring has none."""
         first, second = super().span_teeth
         return first, np.where(self.helix_angle != 0.0, np.nan, second)
-
-    def _spanned(self, gear: int) -> Any:
-        z, x = self.teeth[gear], self.profile_shift[gear]
-        return (z, x) if gear == 0 else (-z, -x)
 
 
 class _Meshes(PitchPair):

@@ -16,6 +16,7 @@ from gearlink.core.parts.gears.tooth import teeth
 from gearlink.core.parts.gears.tooth.teeth import SCALARS, GearFunctions
 
 Pair = tuple[float, float]
+Both = tuple[float | None, float | None]
 T = TypeVar("T")
 
 

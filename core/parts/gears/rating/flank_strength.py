@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
+from gearlink.core.parts.gears.mesh.pitch_pair import Both
 from gearlink.core.parts.gears.rating.load import Factors, Load, Material
 
 
@@ -67,7 +68,7 @@ class FlankStrength:
         return 1.0 / math.sqrt(math.cos(self.path.pair.helix_angle))
 
     @cached_property
-    def single_contact_ratios(self) -> tuple[float | None, float | None]:
+    def single_contact_ratios(self) -> Both:
         """M_1 and M_2: pressure at B and at D over that at the pitch point."""
         path, pitch = self.path, self.path.pair.base_pitch
         at_pitch = path.curvature(path.pitch)
@@ -79,7 +80,7 @@ class FlankStrength:
         return ratio(path.end - pitch), ratio(path.start + pitch)
 
     @cached_property
-    def single_contact_factor(self) -> tuple[float | None, float | None] | None:
+    def single_contact_factor(self) -> Both | None:
         """Z_B, Z_D; a ring has Z_D = 1, and so have both from eps_beta = 1 on."""
         overlap, m = self.path.overlap_ratio, self.single_contact_ratios
         if overlap is None:
@@ -104,11 +105,11 @@ class FlankStrength:
         return self.zone_factor * self.elasticity_factor * z_eps * self.helix_angle_factor * math.sqrt(line)
 
     @cached_property
-    def stress(self) -> tuple[float | None, float | None] | None:
+    def stress(self) -> Both | None:
         """sigma_H of gear 1 and 2."""
         return self.stress_under(Factors() if self.load is None else self.load.factors)
 
-    def stress_under(self, factors: Factors) -> tuple[float | None, float | None] | None:
+    def stress_under(self, factors: Factors) -> Both | None:
         """sigma_H of gear 1 and 2 with other K factors."""
         nominal, single = self.nominal_stress, self.single_contact_factor
         if nominal is None or single is None:
@@ -117,7 +118,7 @@ class FlankStrength:
         return _times(single[0], raised), _times(single[1], raised)
 
     @cached_property
-    def safety(self) -> tuple[float | None, float | None] | None:
+    def safety(self) -> Both | None:
         """S_H = sigma_Hlim Z_N (Z_L Z_v Z_R Z_W Z_X)/sigma_H."""
         return None if self.stress is None else (self._safety(0, self.stress[0]), self._safety(1, self.stress[1]))
 

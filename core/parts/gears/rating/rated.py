@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair, by_gear
+from gearlink.core.parts.gears.mesh.pitch_pair import Both, Pair, by_gear
 from gearlink.core.parts.gears.rating.conditions import Conditions, LimitLine, Point, damage, limit_line, safety_of
 from gearlink.core.parts.gears.rating.materials import GearSteel
 
@@ -439,7 +439,6 @@ def run_in(material: tuple[str, float], deviation: float, speed: float, *, face:
     return min(part * 160.0 * deviation / limit, most, deviation)
 
 
-Both = tuple[float | None, float | None]
 Rows = tuple[tuple[float, float, LimitLine], ...]
 """Load cycles, stress and limit line of each point of a spectrum."""
 _COMPUTED = ("dynamic", "face_contact", "face_bending", "transverse_contact", "transverse_bending")

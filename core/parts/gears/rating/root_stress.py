@@ -16,7 +16,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.pitch_pair import Pair, by_gear
+from gearlink.core.parts.gears.mesh.pitch_pair import Both, Pair, by_gear
 from gearlink.core.parts.gears.rating.load import Factors, Load, Material
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
@@ -205,7 +205,6 @@ class RootSection:
 
 
 T = TypeVar("T")
-Both = tuple[float | None, float | None]
 _STRESS_CORRECTION = 2.0
 """Y_ST of the reference test gears."""
 _GEAR_RIM = (1.2, 0.5, 1.6, 2.242)

@@ -246,29 +246,21 @@ class RootContour:
         outward = edge + turns[1] + (0.0 if not self.ring else math.pi)
         at_root = float(np.angle(self.fillet(np.asarray([self.ends[0]]))[0]))
         land = _between(at_root, edge + turns[1], _LAND)
+        first, second = (
+            _between(*_turned(*ends, clockwise=self.ring), (0.0, 0.5, 1.0))
+            for ends in ((inward, to_side), (to_side, outward))
+        )
         return [
             ("far", lambda at: stand(arc(far)(at)), _between(half, edge + turns[0], (0.0, 0.25, 0.5, 0.75, 1.0))),
-            (
-                "side",
-                lambda at: stand(arc(rounding, centers[0])(at)),
-                _halved(_turned(inward, to_side, clockwise=self.ring)),
-            ),
+            ("side", lambda at: stand(arc(rounding, centers[0])(at)), first),
             ("side", lambda at: stand(at * side), _between(ends[0], ends[1], (0.0, 0.33, 0.67, 1.0))),
-            (
-                "side",
-                lambda at: stand(arc(rounding, centers[1])(at)),
-                _halved(_turned(to_side, outward, clockwise=self.ring)),
-            ),
+            ("side", lambda at: stand(arc(rounding, centers[1])(at)), second),
             ("land", lambda at: stand(arc(self.root)(at)), land[::-1]),
         ]
 
 
 def _between(low: float, high: float, shares: Sequence[float]) -> list[float]:
     return [low + share * (high - low) for share in shares]
-
-
-def _halved(ends: tuple[float, float]) -> list[float]:
-    return _between(*ends, (0.0, 0.5, 1.0))
 
 
 def _turned(start: float, end: float, *, clockwise: bool) -> tuple[float, float]:

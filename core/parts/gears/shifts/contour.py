@@ -372,9 +372,6 @@ class GearDatas(GearData):
         ([1.601225, 1.532794], [1.494699, 1.349281])
     """
 
-    pairs: GearPairs
-    """The pair, known to be many."""
-
     @cached_property
     def path(self) -> PathsOfContact:
         """Their paths of contact, with the lesser width."""
@@ -426,8 +423,7 @@ def shifted(data: GearData, first: Reals, second: Reals) -> GearDatas:
     of_pair = {each.name: getattr(data.pair, each.name) for each in fields(data.pair)}
     of_pair |= {"given_shift": (first, second), "given_distance": None, "given_first_shift": None}
     rest = {each.name: getattr(data, each.name) for each in fields(data) if each.name != "pair"}
-    pairs = made(**of_pair)
-    return GearDatas(pair=pairs, pairs=pairs, **rest)
+    return GearDatas(pair=made(**of_pair), **rest)
 
 
 def _fillet(data: GearDatas, gear: int) -> Any:
@@ -441,11 +437,6 @@ def _fillet(data: GearDatas, gear: int) -> Any:
     return np.where(corner < -FILLET_NOISE * data.pair.module, corner, found)
 
 
-def _sliding(data: GearDatas) -> Any:
-    one, other = data.pair.specific_sliding
-    return one - other
-
-
 def _root_stress(data: GearDatas) -> Any:
     found = strengths(data)
     assert found is not None
@@ -455,7 +446,6 @@ def _root_stress(data: GearDatas) -> Any:
 _AT_ONCE: dict[str, Callable[[GearDatas], Any]] = {
     "fillet 1": lambda data: _fillet(data, 0),
     "fillet 2": lambda data: _fillet(data, 1),
-    "equal sliding": _sliding,
     "equal root stress": _root_stress,
 }
 """Of the lines whose value asks first whether a pair has it."""
@@ -463,7 +453,7 @@ _AT_ONCE: dict[str, Callable[[GearDatas], Any]] = {
 
 def values_of(line: Line, data: GearDatas) -> Reals:
     """The values of a line, not a number where a pair has none."""
-    pair = data.pairs
+    pair: Any = data.pair
     try:
         found = _AT_ONCE.get(line.name, line.value)(data)
     except NoSolution:  # a cutter that no ring can be shaped with

@@ -66,9 +66,7 @@ def _fillet(data: GearData, gear: int) -> float | None:
     return used - form if corner is None else corner.gap
 
 
-def _sliding(data: GearData) -> float | None:
-    if not data.pair.slides:
-        return None
+def _sliding(data: GearData) -> float:
     one, other = data.pair.specific_sliding
     return one - other
 

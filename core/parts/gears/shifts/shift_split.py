@@ -97,9 +97,7 @@ class Diagonal:
         high = [self._where_tip_is(1, base[1])]
         if self.pair.internal:
             low, high = [*low, *high], [max(low) + _WIDEST]
-            if self.line > 0.0:
-                high.append(self._where_tip_is(0, math.hypot(base[0], self.line)))
-        else:
+        if not self.pair.internal or self.line > 0.0:
             high.append(self._where_tip_is(0, math.hypot(base[0], self.line)))
         if not max(low) < min(high):
             raise NoSolution("no split of the shift sum keeps contact on both involutes", fix="use more teeth")
@@ -236,12 +234,7 @@ class Diagonal:
         Raises
             NoSolution - where the criterion has none
         """
-        if name == "sliding":
-            return self.equal_sliding()
-        if name == "tip":
-            return self.equal_tips()
         if name == "root":
             return self.equal_roots(strength)
-        if name == "undercut":
-            return self.no_undercut()
-        return Split(self.shift_sum / 2.0, "equal shifts")
+        found = {"sliding": self.equal_sliding, "tip": self.equal_tips, "undercut": self.no_undercut}.get(name)
+        return Split(self.shift_sum / 2.0, "equal shifts") if found is None else found()

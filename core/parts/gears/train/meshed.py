@@ -470,9 +470,12 @@ class Meshed(GearQuantities, Design):
 
         with at_key("gears"):
             known = {mesh: data for mesh, data in self.mesh_data.items() if self._has_involutes(mesh)}
+        from gearlink.core.parts.gears.drawing_checks import pair_check
+
+        radial, limits = self.spec.gears.assembly == "radial", self.spec.limits
         with in_section("gears"):
-            found = judgement(name, known, self.spec)
-        return [check for checks in found.values() for check in checks]
+            found = [pair_check(name, data, limits, mesh=mesh, radial=radial) for mesh, data in known.items()]
+        return [check for checks in found for check in checks]
 
     def check_mesh(self, name: str, mesh: str) -> list[Check]:
         """The findings of one of MESH_CHECKS on one mesh."""
@@ -535,16 +538,3 @@ def _in_order(table: Table, place: Place) -> Table:
         return table
     item, symbol, pinion, ring, *rest = table.data
     return Table(table.name, table.columns, table.units, (item, symbol, ring, pinion, *rest))
-
-
-def judgement(name: str, found: Mapping[str, GearData], spec: Any) -> dict[str, list[Check]]:
-    """The findings of one of TRAIN_CHECKS on each mesh.
-
-    Parameters
-        found : GearData of the meshes by name
-        spec : of the design, with sections `gears` and `limits`
-    """
-    from gearlink.core.parts.gears.drawing_checks import pair_check
-
-    radial = spec.gears.assembly == "radial"
-    return {mesh: pair_check(name, data, spec.limits, mesh=mesh, radial=radial) for mesh, data in found.items()}
