@@ -88,11 +88,7 @@ class GearData:
     @cached_property
     def internal(self) -> InternalInterference | None:
         """The interferences of a pinion in a ring; None for an external pair."""
-        if not self.pair.internal:
-            return None
-        from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
-
-        return InternalInterference(self.pair)
+        return interference(self.pair) if self.pair.internal else None
 
     @cached_property
     def pin_diameter(self) -> Both:
@@ -375,6 +371,13 @@ def _part(value: Any, name: str) -> Any:
     if isinstance(value, tuple):
         return tuple(_part(each, name) for each in value)
     return None if value is None else getattr(value, name)
+
+
+def interference(pair: GearPair) -> InternalInterference:
+    """What may keep a pinion and a ring from turning."""
+    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
+
+    return InternalInterference(pair)
 
 
 def shown(name: str, value: Any) -> Any:

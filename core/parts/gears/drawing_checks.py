@@ -26,7 +26,7 @@ from gearlink.core.parts.gears.codes import (
     TIP_FOULING,
     TRUE_FILLET,
 )
-from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.data import GearData, interference
 from gearlink.core.parts.gears.drawing_names import DRAWING_CHECKS
 from gearlink.core.parts.gears.measures.inspection import preferred_pin
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
@@ -108,10 +108,8 @@ def _tips_beyond(data: GearData, off: float, _limits: Any) -> Iterator[Check]:
 def _fouling(data: GearData, off: float, _limits: Any) -> Iterator[Check]:
     if not data.pair.internal:
         return
-    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
-
     for pair in (moved(data.pair, -off), moved(data.pair, off)):
-        found, nominal = (_room(InternalInterference(each)) for each in (pair, data.pair))
+        found, nominal = (_room(interference(each)) for each in (pair, data.pair))
         if found < 0.0 <= nominal:
             what = "interference of the tips of pinion and ring"
             at, name = "a limit of the centre distance", TIP_FOULING.checks[2]
@@ -202,9 +200,7 @@ def fed_in(data: GearData) -> Iterator[Check]:
     cutting = _cutting(data)
     if cutting is None:
         return
-    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
-
-    angle = InternalInterference(cutting).radial_assembly_angle
+    angle = interference(cutting).radial_assembly_angle
     if angle is None or angle >= 0.0:
         return
     what = f"the pinion cutter ({cutting.teeth[0]} teeth) cuts off tips of the ring gear while it feeds in"

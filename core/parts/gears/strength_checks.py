@@ -33,12 +33,12 @@ _APART = 0.25
 def rests_on(quantity: str, data: GearData) -> str:
     """Which inputs a stress or a safety rests on, in words; empty for other quantities."""
     if quantity in ("contact_stress", "safety_pitting"):
-        return _contact_inputs(data)
+        return _inputs(data, "H")
     if quantity in ("root_fillet_radius", "stress_correction_factor", "form_factor"):
         return shaped_root(data)
     if quantity in ("generated_root_factor", "generated_root_stress"):
         return "boundary integral on one tooth and its rim, within 4 %"
-    return _bending_inputs(data) if quantity in ("root_stress", "safety_bending") else ""
+    return _inputs(data, "F") if quantity in ("root_stress", "safety_bending") else ""
 
 
 def shaped_root(data: GearData) -> str:
@@ -64,36 +64,23 @@ def shaped_root(data: GearData) -> str:
     )
 
 
-def _contact_inputs(data: GearData) -> str:
+def _inputs(data: GearData, of: str) -> str:
+    """The K factors of the flanks, H, or the roots, F, and where they are from."""
     k = data.factors
-    return (
-        f"K_A {k.application:.4g}, {_shared(k.distribution)}K_v {k.dynamic:.4g}, K_Hb {k.face_contact:.4g}, "
-        f"K_Ha {k.transverse_contact:.4g}; {_origin(data)}"
-    )
-
-
-def _bending_inputs(data: GearData) -> str:
-    k = data.factors
-    edition = "" if data.edition == 2006 else f"; edition {data.edition} is not verified"
-    return (
-        f"K_A {k.application:.4g}, {_shared(k.distribution)}K_v {k.dynamic:.4g}, K_Fb {k.face_bending:.4g}, "
-        f"K_Fa {k.transverse_bending:.4g}; {_origin(data)}{edition}"
-    )
-
-
-def _shared(distribution: float) -> str:
-    return "" if distribution == 1.0 else f"K_gamma {distribution:.4g}, "
-
-
-def _origin(data: GearData) -> str:
+    face, transverse = (k.face_contact, k.transverse_contact) if of == "H" else (k.face_bending, k.transverse_bending)
+    shared = "" if k.distribution == 1.0 else f"K_gamma {k.distribution:.4g}, "
+    origin = "K and life factors are those of the file, else 1"
     if data.rated is not None:
-        return "K and life factors by rating (table factors)"
-    return "K and life factors are those of the file, else 1"
+        origin = "K and life factors by rating (table factors)"
+    if of == "F" and data.edition != 2006:
+        origin += f"; edition {data.edition} is not verified"
+    every = f"K_A {k.application:.4g}, {shared}K_v {k.dynamic:.4g}, K_{of}b {face:.4g}, K_{of}a {transverse:.4g}"
+    return f"{every}; {origin}"
 
 
 def pitting(data: GearData, limits: Any) -> Iterator[Check]:
     """GL210 of both gears."""
-    called, note = "pitting safety S_H", _contact_inputs(data)
+    called, note = "pitting safety S_H", _inputs(data, "H")
     yield from _safety(PITTING, data, data.safety_pitting, limits.safety_pitting, called, note)
 
 
@@ -102,7 +89,7 @@ def bending(data: GearData, limits: Any) -> Iterator[Check]:
     if data.load is not None:
         yield from _out_of_range(data)
     ring = shaped_root(data)
-    called, note = "tooth root safety S_F", _bending_inputs(data) + (f"; {ring}" if ring else "")
+    called, note = "tooth root safety S_F", _inputs(data, "F") + (f"; {ring}" if ring else "")
     yield from _safety(BENDING, data, data.safety_bending, limits.safety_bending, called, note)
 
 

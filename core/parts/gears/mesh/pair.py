@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
@@ -237,24 +237,17 @@ class GearPair(PitchPair):
         teeth: tuple[int, int],
         profile_shift: Pair = (0.0, 0.0),
         pressure_angle: float = math.radians(20.0),
-        *,
-        addendum: float = 1.0,
-        clearance: float = 0.25,
+        **profile: Any,
     ) -> GearPair:
         """Pair with the given profile shifts (x_1, x_2) [module] at the centre distance without backlash.
 
+        Parameters
+            profile : addendum, clearance [module] and what else a pair has
         Example
             >>> GearPair.from_shift(2.0, (40, 72)).center_distance
             112.0
         """
-        return cls(
-            module=module,
-            teeth=teeth,
-            pressure_angle=pressure_angle,
-            addendum=addendum,
-            clearance=clearance,
-            given_shift=profile_shift,
-        )
+        return cls(module=module, teeth=teeth, pressure_angle=pressure_angle, given_shift=profile_shift, **profile)
 
     @cached_property
     def _full_shortening(self) -> float:

@@ -372,15 +372,9 @@ class RackCutRoots(RackCutRoot):
         def at(value: Any) -> Any:
             return value[places] if np.ndim(value) else value
 
-        given = self.tool
-        tool = replace(given, addendum=at(given.addendum), rounding=at(given.rounding))
-        return RackCutRoots(
-            teeth=at(self.teeth),
-            shift=at(self.shift),
-            tool=tool,
-            pressure_angle=at(self.pressure_angle),
-            helix_angle=at(self.helix_angle),
-        )
+        tool = replace(self.tool, addendum=at(self.tool.addendum), rounding=at(self.tool.rounding))
+        others = ("teeth", "shift", "pressure_angle", "helix_angle")
+        return replace(self, tool=tool, **{name: at(getattr(self, name)) for name in others})
 
     @cached_property
     def _cut_into(self) -> tuple[Any, RackCutRoots | None]:

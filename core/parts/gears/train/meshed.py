@@ -51,7 +51,6 @@ if TYPE_CHECKING:
 
     from gearlink.core.parts.gears.data import GearData
     from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
-    from gearlink.core.parts.gears.rating.load import Required
     from gearlink.core.parts.gears.train.meshes import Place, Train
 
 
@@ -320,20 +319,18 @@ class Meshed(GearQuantities, Design):
     @cached_property
     def mesh_data(self) -> dict[str, GearData]:
         """The meshes with all that their drawing needs; a ring is the second gear of its pair."""
+        from gearlink.core.parts.gears.from_spec import required_of
+
         train, pairs = self.teeth_train, self._own_pairs  # whose refusals name the section already
         with in_section("gears"):
-            found, required = zip(self.mesh_names, train.places, pairs.values(), strict=True), self._required
+            found, required = (
+                zip(self.mesh_names, train.places, pairs.values(), strict=True),
+                required_of(self.spec.limits),
+            )
             return {
                 name: replace(train.data(place, pair, self.rim_of(name)), roles=self._roles(name), required=required)
                 for name, place, pair in found
             }
-
-    @property
-    def _required(self) -> Required:
-        """The safeties that the file asks for."""
-        from gearlink.core.parts.gears.from_spec import required_of
-
-        return required_of(self.spec.limits)
 
     def widths_of(self, name: str = "") -> tuple[float, float] | None:
         """Face widths of the gears of a mesh [mm], a ring's second; None where the file has none."""

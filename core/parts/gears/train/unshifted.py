@@ -47,16 +47,6 @@ MOST_TEETH = 10_000
 
 
 @dataclass(frozen=True)
-class _Row:
-    """What a gear of some teeth has, at module 1: quantities, the way of contact at its tip, (value, fails, warns) and
-    the limit of each of its checks."""
-
-    quantities: tuple[float, ...]
-    action: float
-    checks: tuple[tuple[float, float, float, float], ...]
-
-
-@dataclass(frozen=True)
 class _Gears:
     """Gears by their columns in the table of all tooth numbers."""
 
@@ -85,32 +75,31 @@ class UnshiftedMeshes:
     def __init__(self, pressure_angle: float, limits: GearLimits) -> None:
         self._angle, self._limits = pressure_angle, limits
         self._place = np.full(MOST_TEETH + 1, -1, dtype=np.intp)
-        self._rows: list[_Row] = []
+        self._rows: list[tuple[float, ...]] = []
         self._table: Reals = np.empty((0, 0))
 
     def _at(self, teeth: Reals) -> _Gears:
-        """The rows of gears: quantities, action, then value, limit, fails and warns of each check."""
+        """The rows of gears."""
         numbers = np.asarray(teeth, dtype=np.int64)
         places = self._place[numbers]
         if places.size and places.min() < 0:
             for z in distinct(numbers[places < 0]).tolist():
                 self._place[z] = len(self._rows)
                 self._rows.append(self._row(z))
-            flat = [(*row.quantities, row.action, *(x for check in row.checks for x in check)) for row in self._rows]
-            self._table = np.array(flat).T
+            self._table = np.array(self._rows).T
             places = self._place[numbers]
         return _Gears(self._table, places)
 
-    def _row(self, teeth: int) -> _Row:
+    def _row(self, teeth: int) -> tuple[float, ...]:
+        """At module 1: quantities, the way of contact at the tip, value, limit, fails and warns of each check."""
         pair = GearPair.from_shift(1.0, (teeth, teeth), (0.0, 0.0), pressure_angle=self._angle)
-        quantities = tuple(float(getattr(pair, name)[0]) for name in (*_LENGTHS, *_PLAIN))
-        checks = []
+        row = [*(float(getattr(pair, name)[0]) for name in (*_LENGTHS, *_PLAIN)), pair.contact_ratio * math.pi]
         for rule in _OWN_CHECKS:
             found = next(gear_check(rule.name, pair, self._limits))
             assert found.value is not None, "all of them compare"
             assert found.limit is not None, "all of them compare"
-            checks.append((found.value, found.limit, float(found.status == "fail"), float(found.status == "warn")))
-        return _Row(quantities, pair.contact_ratio * math.pi, tuple(checks))
+            row += [found.value, found.limit, float(found.status == "fail"), float(found.status == "warn")]
+        return tuple(row)
 
     def meshes(self, first: Reals, second: Reals, module: Reals) -> Mesh:
         """The meshes of arrays of gears.
