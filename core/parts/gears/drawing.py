@@ -110,12 +110,12 @@ def _strength(data: GearData) -> Iterator[Row]:
         return
     steels = rated.steels
     yield "material", "", steels[0].name, steels[1].name, ""
-    for words, symbol, hardness in (("hardness", "HV", False), ("hardness", "HBW", True)):
-        first, second = (None if steel.kind.brinell != hardness else steel.hardness for steel in steels)
-        yield words, symbol, first, second, ""
+    for symbol, brinell in (("HV", False), ("HBW", True)):
+        first, second = (steel.hardness if steel.kind.brinell == brinell else None for steel in steels)
+        yield "hardness", symbol, first, second, ""
     yield "roughness of the flanks", "Rz", *rated.conditions.flank_roughness, "um"
-    yield "safety against pitting", "S_H", *(rated.safety_pitting), ""
-    yield "safety against tooth breakage", "S_F", *(rated.safety_bending), ""
+    yield "safety against pitting", "S_H", *rated.safety_pitting, ""
+    yield "safety against tooth breakage", "S_F", *rated.safety_bending, ""
 
 
 def _tolerances(one: ToothTolerances, other: ToothTolerances) -> Iterator[Row]:
@@ -138,7 +138,8 @@ def _teeth(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:
     angle = _degrees(pair.pressure_angle)
     yield "pressure angle", "alpha", angle, angle, "deg"
     yield "tool addendum", "h_fP*", pair.root_depth(0), pair.root_depth(1), ""
-    yield "tool rounding", "rho*", _of_tool(pair.tools[0], "rounding"), _of_tool(pair.tools[1], "rounding"), ""
+    first, second = (None if tool is None else tool.rounding for tool in pair.tools)
+    yield "tool rounding", "rho*", first, second, ""
     helix = _degrees(pair.helix_angle)
     yield "helix angle", "beta", helix, helix, "deg"
     if hands is not None:
@@ -150,10 +151,6 @@ def _teeth(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:
 def _degrees(angle: float) -> float:
     """In degrees, as a file wrote it: without the rounding of the way there and back."""
     return round(math.degrees(angle), 12)
-
-
-def _of_tool(tool: Any, name: str) -> Any:
-    return None if tool is None else getattr(tool, name)
 
 
 def _circles(data: GearData) -> Iterator[Row]:

@@ -203,21 +203,10 @@ class RatingSpec(Spec):
             raise refused(f"{self.system} needs planets, their number", "planets", "GL106")
         return self
 
-    def steels(self, limits: tuple[tuple[float | None, float | None], ...]) -> tuple[GearSteel, GearSteel]:
-        """The materials of both gears; `limits`: sigma_Hlim and sigma_Flim of each as the file gives them."""
-        one, other = (
-            gear_steel(
-                one_of(self.material, gear),
-                self.quality,
-                hardness=one_of(self.hardness, gear),
-                brinell=one_of(self.brinell, gear),
-                yield_strength=one_of(self.yield_strength, gear),
-                contact_limit=limits[gear][0],
-                bending_limit=limits[gear][1],
-            )
-            for gear in (0, 1)
-        )
-        return one, other
+    def _steel(self, gear: int, limits: tuple[float | None, float | None]) -> GearSteel:
+        values = {name: one_of(getattr(self, name), gear) for name in ("hardness", "brinell", "yield_strength")}
+        name = one_of(self.material, gear)
+        return gear_steel(name, self.quality, **values, contact_limit=limits[0], bending_limit=limits[1])
 
     def conditions(
         self, limits: tuple[tuple[float | None, float | None], ...], accuracy_grade: int | None
@@ -233,7 +222,7 @@ class RatingSpec(Spec):
         grades = two(accuracy_grade if self.grade is None else self.grade)
         return Conditions(
             life=self.life,
-            steels=self.steels(limits),
+            steels=(self._steel(0, limits[0]), self._steel(1, limits[1])),
             quality=self.quality,
             grades=grades,
             edition=self.tolerance_edition,
