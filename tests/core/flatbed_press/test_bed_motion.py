@@ -72,7 +72,7 @@ def test_each_rate_is_the_derivative_of_the_one_before(name: str) -> None:
 @pytest.mark.parametrize("name", CAMS)
 def test_bed_goes_as_the_cylinder_in_the_zone(name: str) -> None:
     made = factory.design("ty460", **CAMS[name])
-    phi = np.linspace(made.sync_start, made.sync_end - 1e-9, 100)
+    phi = np.linspace(made.sync_start + 1e-9, made.sync_end - 1e-9, 100)  # at a step the side hangs on rounding
     bed, cylinder = made.bed_motion.travel(phi), made.cylinder.travel(phi, 2)
     np.testing.assert_allclose(np.ptp(bed.value - cylinder.value), 0.0, rtol=0.0, atol=1e-11)
     np.testing.assert_allclose(bed.first, cylinder.first, rtol=1e-12)
