@@ -146,17 +146,13 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
     """The parts that a format takes: of all parts, those that are bodies become solids."""
     if form is not FileFormat.STEP:
         return contours[asked.curve]
-    made = [contour for contour in contours[CurveForm.SPLINE] if _is_body(contour)]
+    every = [(contour, {line.layer for line in contour.lines}) for contour in contours[CurveForm.SPLINE]]
+    made = [contour for contour, layers in every if contour.part.body and "PROFILE" in layers]
     if not made:
-        pins = any(line.layer == "PIN_CIRCLE" for contour in contours[CurveForm.SPLINE] for line in contour.lines)
-        words = "a circle of pins" if pins else "a path"
+        words = "a circle of pins" if any("PIN_CIRCLE" in layers for _, layers in every) else "a path"
         raise GearlinkError(f"{words} is not a solid\ngive --as dxf, svg or csv")
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
-
-
-def _is_body(contour: Contour) -> bool:
-    return contour.part.body and any(line.layer == "PROFILE" for line in contour.lines)
 
 
 def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]) -> tuple[str, ...]:
@@ -171,19 +167,14 @@ def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]
 
 
 def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
-    if form is FileFormat.DXF:
-        from gearlink.cli.export.drawings import as_dxf
+    if form in (FileFormat.DXF, FileFormat.SVG):
+        from gearlink.cli.export.drawings import as_dxf, as_svg
 
-        return as_dxf
-    if form is FileFormat.SVG:
-        from gearlink.cli.export.drawings import as_svg
-
-        return as_svg
+        return as_dxf if form is FileFormat.DXF else as_svg
     if form is FileFormat.STEP:
         from gearlink.cli.export.step import as_step
 
         return lambda contour, spec: as_step(contour, spec, asked.width)
-
     return as_csv
 
 
@@ -248,12 +239,8 @@ def _way(value: float | None) -> str:
     return "none" if value is None else repr(value)
 
 
-_HEADS = {
-    "PROFILE": ("x [mm]", "y [mm]"),
-    "PITCH_CURVE": ("pitch_x [mm]", "pitch_y [mm]"),
-    "PATH": ("x [mm]", "y [mm]"),
-    "PIN_CIRCLE": ("x [mm]", "y [mm]"),
-}
+_HEADS = dict.fromkeys(("PROFILE", "PATH", "PIN_CIRCLE"), ("x [mm]", "y [mm]"))
+_HEADS["PITCH_CURVE"] = "pitch_x [mm]", "pitch_y [mm]"
 _INPUTS = ("cam_angle", "input_angle", "crank_angle", "carrier_angle", "theta")
 _LEADING = ("k", *(f"{name} [deg]" for name in _INPUTS), "input_position [mm]")
 
@@ -285,9 +272,10 @@ def _rows(contour: Contour) -> Iterator[list[Any]]:
         yield from _tooth_by_tooth(contour)
         return
     for piece, shown in rows_of(drawn):
-        columns = _columns(piece, layers, contour.part.extra_columns, len(leading))
+        columns = _columns(piece, layers, len(contour.part.extra_columns), len(leading))
         for row in zip(*(column[shown] for column in columns), strict=True):
-            yield [*(_cell(value) for value in row), *([piece.stretch.name] if named else ())]
+            cells = (value if math.isfinite(value) else "" for value in row)
+            yield [*cells, *([piece.stretch.name] if named else ())]
 
 
 def _tooth_by_tooth(contour: Contour) -> Iterator[list[Any]]:
@@ -299,13 +287,10 @@ def _tooth_by_tooth(contour: Contour) -> Iterator[list[Any]]:
     yield from map(list, zip(nodes.real.tolist(), nodes.imag.tolist(), curves, strict=True))
 
 
-def _columns(
-    piece: Sampled, layers: tuple[str, ...], extra_columns: tuple[str, ...], leading: int
-) -> list[list[float]]:
+def _columns(piece: Sampled, layers: tuple[str, ...], extras: int, leading: int) -> list[list[float]]:
     """The columns of a piece: leading extras, x and y of each layer, the other extras."""
-    count = piece.parameter.size
-    empty = [math.nan] * count
-    extra = [empty] * len(extra_columns)
+    empty = [math.nan] * piece.parameter.size
+    extra = [empty] * extras
     if piece.stretch.extra is not None:
         extra = piece.stretch.extra(piece.parameter).tolist()
     places: list[list[float]] = []
@@ -316,10 +301,6 @@ def _columns(
         else:
             places += [empty, empty]
     return [*extra[:leading], *places, *extra[leading:]]
-
-
-def _cell(value: float) -> float | str:
-    return value if math.isfinite(value) else ""
 
 
 def run_cam_table(source: str, options: Options, rows: int | None, tolerance: float | None) -> int:

@@ -143,9 +143,8 @@ class Line:
             rows.append(start + scale * (piece.knots[1:-4] - piece.knots[0]))
             start += length
         places = start * np.arange(self.turns.size + 1)
-        return np.concatenate(
-            [[0.0], np.add.outer(places[:-1], np.concatenate(rows)).ravel(), np.repeat(places[-1], 4)]
-        )
+        inner = np.add.outer(places[:-1], np.concatenate(rows)).ravel()
+        return np.concatenate([[0.0], inner, np.repeat(places[-1], 4)])
 
 
 @dataclass(frozen=True)
@@ -176,9 +175,8 @@ class Contour:
     @property
     def holes(self) -> tuple[Circle, ...]:
         """Holes through the part: its bore, and those beside it."""
-        return tuple(
-            each for each in self.part.circles if each.layer in ("BORE", "OUTPUT_HOLES") or self.has_bore(each)
-        )
+        circles, always = self.part.circles, ("BORE", "OUTPUT_HOLES")
+        return tuple(each for each in circles if each.layer in always or self.has_bore(each))
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:

@@ -127,9 +127,8 @@ def _add_layers(document: Drawing, contour: Contour) -> None:
 def _add_line(space: Modelspace, line: Line, form: CurveForm) -> None:
     attributes = {"layer": line.layer}
     if form is CurveForm.POLYLINE:
-        nodes = line.nodes[:-1] if line.closed else line.nodes
         polyline = space.add_lwpolyline([], close=line.closed, dxfattribs=attributes)
-        polyline.lwpoints = _points(nodes)
+        polyline.lwpoints = _points(line.nodes[:-1] if line.closed else line.nodes)
         return
     spline = space.add_spline(dxfattribs=attributes)
     spline.control_points = np.column_stack([line.control.real, line.control.imag, np.zeros(line.control.size)])
@@ -199,12 +198,13 @@ def as_svg(contour: Contour, spec: Any) -> bytes:
     """
     digits = 3 + max(0, math.ceil(-math.log10(contour.tolerance)))
     said = describe(contour, spec, extra_error=10.0**-digits)
-    left, bottom, right, top = _frame(contour)
+    sides = _extents(contour)  # with a margin, in whole millimetres
+    (left, bottom), (right, top) = (math.floor(x) - 2.0 for x in sides[:2]), (math.ceil(x) + 2.0 for x in sides[2:])
     width, height = f"{right - left:.0f}", f"{top - bottom:.0f}"
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         "<!--",
-        *(_comment(f"{key}: {text}") for key, text in said.items()),
+        *(escape(_clean(f"{key}: {text}").replace("--", "- -")) for key, text in said.items()),  # no two hyphens in it
         "-->",
         '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
         f'width="{width}mm" height="{height}mm" '
@@ -311,17 +311,6 @@ def _pairs(points: Points, digits: int) -> list[str]:
 def _number(value: float, digits: int) -> str:
     text = f"{value:.{digits}f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
-
-
-def _frame(contour: Contour) -> tuple[float, float, float, float]:
-    """Left, bottom, right, top of all curves, circles and the axis with a margin, in whole millimetres."""
-    left, bottom, right, top = _extents(contour)
-    return math.floor(left) - 2.0, math.floor(bottom) - 2.0, math.ceil(right) + 2.0, math.ceil(top) + 2.0
-
-
-def _comment(text: str) -> str:
-    """Text that may stand in an XML comment, where two hyphens may not."""
-    return escape(_clean(text).replace("--", "- -"))
 
 
 def _clean(text: str) -> str:

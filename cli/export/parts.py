@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -44,6 +44,8 @@ if TYPE_CHECKING:
 
 
 Makers = dict[str, Callable[[], "Part"]]
+_Piece = tuple[str, Curve, float, float]
+"""Name and curve of a stretch, and the range of its parameter."""
 
 
 def makers(design: Any, asked: tuple[str, ...] = ()) -> Makers:
@@ -70,11 +72,7 @@ def _lacking(what: str) -> Makers:
 
 def press(design: Any) -> Makers:
     """Both cams and the gears of the input, as far as the file has their sections."""
-    found: Makers = {}
-    if design.spec.cam is not None:
-        shaft = design.spec.cam.shaft_radius
-        found["main_cam"] = lambda: _on_shaft(disc_cam("main_cam", design.main_cam), shaft)
-        found["return_cam"] = lambda: _on_shaft(disc_cam("return_cam", design.return_cam), shaft)
+    found = {} if design.spec.cam is None else _both_cams(design)
     if design.spec.input_gears is not None:
         found |= gear_pair(design, "input_gears")
     if design.spec.cylinder.gears is not None:
@@ -83,20 +81,25 @@ def press(design: Any) -> Makers:
     if design.spec.bed.pinion is not None:
         mesh, (lower, upper) = design.teeth.pinion, design.teeth.rack_teeth
         found |= on_rack(mesh, ("pinion", "lower_rack"), ("pinion", "lower rack"), "bed.pinion", lower)
-        found["upper_rack"] = on_rack(mesh, ("pinion", "upper_rack"), ("", "upper rack"), "bed.pinion", upper)[
-            "upper_rack"
-        ]
+        above = on_rack(mesh, ("pinion", "upper_rack"), ("", "upper rack"), "bed.pinion", upper)
+        found["upper_rack"] = above["upper_rack"]
     return found or _lacking("the file has no section cam and no gears: input_gears, cylinder.gears, bed.pinion")
+
+
+def _both_cams(design: Any) -> Makers:
+    """Main and return cam on their shaft."""
+
+    def made(name: str) -> Part:
+        return _on_shaft(disc_cam(name, getattr(design, name)), design.spec.cam.shaft_radius)
+
+    return {name: partial(made, name) for name in ("main_cam", "return_cam")}
 
 
 def gripper(design: Any) -> Makers:
     """The cams, and that of the fingers."""
-    found: Makers = {}
-    if design.spec.cam is not None:
-        shaft = design.spec.cam.shaft_radius
-        found["main_cam"] = lambda: _on_shaft(disc_cam("main_cam", design.main_cam), shaft)
-        if design.spec.cam.return_roller is not None:
-            found["return_cam"] = lambda: _on_shaft(disc_cam("return_cam", design.return_cam), shaft)
+    found = {} if design.spec.cam is None else _both_cams(design)
+    if found and design.spec.cam.return_roller is None:
+        del found["return_cam"]
     if design.spec.fingers is not None:
         found["finger_cam"] = lambda: disc_cam("finger_cam", design.fingers.cam)
     return found or _lacking("the file has no section cam: center, sense, roller")
@@ -133,7 +136,7 @@ def _on_shaft(part: Part, radius: float) -> Part:
 
 def cycloidal(design: Any) -> Makers:
     """The disc with its holes, and the ring with its pins."""
-    return {"disc": lambda: cycloidal_disc(design), "ring": lambda: cycloidal_ring(design)}
+    return {"disc": partial(cycloidal_disc, design), "ring": partial(cycloidal_ring, design)}
 
 
 def geneva(design: Any) -> Makers:
@@ -163,9 +166,7 @@ def _wall(design: Any, name: str, place: int) -> Part:
     return Part(
         name=name,
         title=f"{name.removeprefix('groove_')} wall of the groove",
-        stretches=tuple(
-            Stretch(CAM_LAYERS, points, low, high, extra=extra) for low, high in pairwise([0.0, *joints, _TURN])
-        ),
+        stretches=tuple(Stretch(CAM_LAYERS, points, *span, extra=extra) for span in pairwise([0.0, *joints, _TURN])),
         closed=True,
         notes=(f"roller radius {groove.roller_radius:.9g} mm", "frame: axis of the input at the origin"),
         findings=(found.message,) if found.status == "fail" else (),
@@ -355,9 +356,11 @@ def hypocycloid(design: Any) -> Makers:
 def mutilated(design: Any) -> Makers:
     """The wheel and the driven gear; the locking disc and plate where the file has them."""
     hands = train_hands(design)
-    titles = ("", "gear 2, driven")
-    data_of = partial(_data_of, design)
-    made = of_mesh(design.mesh, ("", "gear2"), titles, "gears", data_of=data_of, hands=hands)
+
+    def data_of() -> GearData:
+        return design.mesh_data[""]  # type: ignore[no-any-return]
+
+    made = of_mesh(design.mesh, ("", "gear2"), ("", "gear 2, driven"), "gears", data_of=data_of, hands=hands)
 
     def wheel() -> Part:
         with at_key("gears"):
@@ -373,14 +376,8 @@ def mutilated(design: Any) -> Makers:
 
 def in_machine(design: Any, label: str, names: tuple[str, str], titles: tuple[str, str]) -> Makers:
     """Both gears of a mesh inside a machine."""
-    rim, hands, data = design.outer_rim(label), train_hands(design, label), partial(_data_of, design, label)
-    return of_mesh(design.meshes[label], names, titles, "gears", data_of=data, rim=rim, hands=hands)
-
-
-def _data_of(design: Any, label: str = "") -> GearData:
-    """What a drawing says of a mesh inside a machine."""
-    found: GearData = design.mesh_data[label]
-    return found
+    more = {"rim": design.outer_rim(label), "hands": train_hands(design, label)}
+    return of_mesh(design.meshes[label], names, titles, "gears", data_of=lambda: design.mesh_data[label], **more)
 
 
 def _lines(data_of: Callable[[], GearData], number: int, hands: tuple[str, str] | None) -> list[Any]:
@@ -471,16 +468,10 @@ def gear_of(
         NoSolution - where no involute is left between root and tip
     """
     profile = ToothProfile.of(pair, number)
-    short = 1e-14 * profile.tip_radius
-    stretches = tuple(
-        _stretch(piece, curve, low, high)
-        for piece, (curve, low, high) in zip(_NAMES, profile.pieces(), strict=True)
-        if _length(curve, low, high) > short
-    )
     return Part(
         name=name,
         title=title,
-        stretches=stretches,
+        stretches=tuple(_stretch(*piece) for piece in _half(profile)),
         closed=True,
         teeth=pair.teeth[number],
         circles=(
@@ -508,11 +499,7 @@ def ring_of(mesh: GearPair, rim: float, name: str, title: str, width: float | No
     return Part(
         name=name,
         title=title,
-        stretches=tuple(
-            _stretch(piece, curve, low, high)
-            for piece, curve, low, high in shape.pieces()
-            if _length(curve, low, high) > 1e-14 * shape.root
-        ),
+        stretches=tuple(_stretch(*piece) for piece in _lasting(shape.pieces(), shape.root)),
         closed=True,
         teeth=shape.teeth,
         circles=(
@@ -563,8 +550,8 @@ def rack_of(
         text = f"a file holds a rack of at most {_MOST_RACK_TEETH} teeth, not {teeth}"
         raise NoSolution(text, key="rack_teeth", fix="give rack_teeth")
     profile, pair = rack.profile, rack.pair
-    half = [(piece, *rest) for piece, rest in zip(_RACK_NAMES, profile.pieces(), strict=True)]
-    half = [piece for piece in half if _length(*piece[1:]) > 1e-14 * profile.pitch]
+    named = ((name, *rest) for name, rest in zip(_RACK_NAMES, profile.pieces(), strict=True))
+    half = list(_lasting(named, profile.pitch))
     places = [profile.pitch * (k - 0.5 * teeth) for k in range(teeth)]
     pieces = [part for at in places for part in _one_pitch(half, at, profile.pitch)]
     left, right, low = places[0], places[-1] + profile.pitch, profile.root - back
@@ -587,7 +574,7 @@ _MOST_RACK_TEETH = 1000
 _RACK_NAMES = ("root line", "rounding", "flank", "tip line")
 
 
-def _one_pitch(half: list[tuple[str, Curve, float, float]], at: float, pitch: float) -> Iterator[Stretch]:
+def _one_pitch(half: list[_Piece], at: float, pitch: float) -> Iterator[Stretch]:
     """The stretches of a tooth, from the middle of the space at `at` to the middle of the next one."""
     for piece, curve, low, high in half:
         yield _stretch(piece, lambda t, curve=curve: at + curve(t), low, high)  # type: ignore[misc]
@@ -616,9 +603,12 @@ def _rack_notes(rack: RackMesh, profile: RackProfile, teeth: int, low: float, ha
     )
 
 
-def _length(curve: Curve, low: float, high: float) -> float:
-    ends = curve(np.array([low, high]))
-    return float(abs(ends[1] - ends[0])) if high > low else 0.0
+def _lasting(pieces: Iterable[_Piece], size: float) -> Iterator[_Piece]:
+    """The pieces whose ends are apart, on a part of some size [mm]."""
+    for name, curve, low, high in pieces:
+        start, end = curve(np.array([low, high])).tolist()
+        if high > low and abs(end - start) > 1e-14 * size:
+            yield name, curve, low, high
 
 
 def _helix(pair: GearPair, hand: str) -> str:
@@ -628,7 +618,7 @@ def _helix(pair: GearPair, hand: str) -> str:
 def _notes(pair: GearPair, number: int, profile: ToothProfile, hand: str) -> tuple[str, ...]:
     helix = _helix(pair, hand)
     section = "; transverse section" if pair.helix_angle else ""
-    notes = [
+    return (
         f"module {pair.module:g} mm, {profile.cut.teeth} teeth, profile shift {profile.cut.shift:.9g}, "
         f"pressure angle {math.degrees(pair.pressure_angle):.9g} deg{helix}",
         f"tip radius {profile.outer_radius:.9g} mm, root radius {profile.root_radius:.9g} mm, "
@@ -637,11 +627,9 @@ def _notes(pair: GearPair, number: int, profile: ToothProfile, hand: str) -> tup
         f"radius {profile.form_radius:.9g} mm" + (", undercut" if profile.undercut else ""),
         "no backlash: reduce the tooth thickness by the allowance of the drawing",
         f"frame: gear axis at the origin, middle of a tooth space on the x axis{section}",
-    ]
-    return tuple(notes)
+    )
 
 
-_Piece = tuple[str, Curve, float, float]
 _NAMES = ("root circle", "trochoid", "involute", "tip circle")
 
 
@@ -760,10 +748,8 @@ def _failed(design: Any, check: str) -> tuple[str, ...]:
 
 def _half(profile: ToothProfile) -> Iterator[_Piece]:
     """A tooth from the middle of the space before it, on the x axis, to its own middle."""
-    for name, (curve, low, high) in zip(_NAMES, profile.pieces(), strict=True):
-        ends = curve(np.array([low, high]))
-        if high > low and abs(complex(ends[1] - ends[0])) > 1e-14 * profile.tip_radius:
-            yield name, curve, low, high
+    named = ((name, *rest) for name, rest in zip(_NAMES, profile.pieces(), strict=True))
+    return _lasting(named, profile.tip_radius)
 
 
 def _cut_down(pieces: list[_Piece], radius: float, middle: float) -> list[_Piece]:
@@ -775,15 +761,14 @@ def _cut_down(pieces: list[_Piece], radius: float, middle: float) -> list[_Piece
         def beyond(at: float, curve: Curve = curve) -> float:
             return abs(complex(curve(np.array([at]))[0])) - radius
 
-        if beyond(high) <= 0.0:
-            kept.append((name, curve, low, high))
-            start = cmath.phase(complex(curve(np.array([high]))[0]))
-            continue
-        if beyond(low) < 0.0:
-            high = bracketed_root(beyond, low, high)
-            kept.append((name, curve, low, high))
-            start = cmath.phase(complex(curve(np.array([high]))[0]))
-        break
+        last = beyond(high) > 0.0
+        if last and beyond(low) >= 0.0:
+            break
+        end = bracketed_root(beyond, low, high) if last else high
+        kept.append((name, curve, low, end))
+        start = cmath.phase(complex(curve(np.array([end]))[0]))
+        if last:
+            break
     if start < middle:
         kept.append(("cut", arc(radius), start, middle))
     return kept
@@ -827,9 +812,8 @@ def disc_cam(name: str, cam: DiscCam, words: str = "") -> Part:
     Raises
         NoSolution - where the cam does not exist
     """
-    joints = _joints(cam)
     layers = CAM_LAYERS if cam.roller_radius or words else CAM_LAYERS[:1]  # an edge goes along the profile
-    stretches = [_of_turn(cam, layers, low, high) for low, high in pairwise(joints)]
+    stretches = [_of_turn(cam, layers, low, high) for low, high in pairwise(_joints(cam))]
     rounded = []
     for stretch, following in zip(stretches, [*stretches[1:], stretches[0]], strict=True):
         rounded += [stretch, *_round_corner(cam, stretch, following)]
@@ -842,11 +826,7 @@ def disc_cam(name: str, cam: DiscCam, words: str = "") -> Part:
         stretches=tuple(rounded),
         closed=True,
         circles=(Circle("BASE_CIRCLE", cam.min_radius),) if cam.min_radius > 0.0 else (),  # else the roller covers it
-        notes=(
-            f"{words or _touching(cam)}, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
-            "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
-            "base circle: the largest about the axis inside the profile",
-        ),
+        notes=_cam_notes(words or _touching(cam), cam),
         findings=failed,
         extra_columns=("cam_angle [deg]", "pressure_angle [deg]", "curvature_radius [mm]"),
     )
@@ -860,8 +840,7 @@ def flat_cam(name: str, cam: FlatCam, words: str = "flat face") -> Part:
     """
 
     def stretch(low: float, high: float) -> Stretch:
-        def inside(theta: Reals) -> Reals:
-            return np.clip(theta, low + _INSIDE if low else 0.0, high - _INSIDE)
+        inside = _within(low, high)
 
         def extra(theta: Reals) -> Reals:
             return np.stack([np.degrees(theta), cam.touch(inside(theta)).radius])
@@ -875,14 +854,23 @@ def flat_cam(name: str, cam: FlatCam, words: str = "flat face") -> Part:
         stretches=tuple(stretch(low, high) for low, high in pairwise(_joints(cam))),
         closed=True,
         circles=(Circle("BASE_CIRCLE", cam.min_radius),),
-        notes=(
-            f"{words}, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
-            "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
-            "base circle: the largest about the axis inside the profile",
-        ),
+        notes=_cam_notes(words, cam),
         findings=("the profile is undercut: it cannot be made",) if undercut else (),
         extra_columns=("cam_angle [deg]", "curvature_radius [mm]"),
     )
+
+
+def _cam_notes(words: str, cam: DiscCam | FlatCam) -> tuple[str, ...]:
+    return (
+        f"{words}, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
+        "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
+        "base circle: the largest about the axis inside the profile",
+    )
+
+
+def _within(low: float, high: float) -> Callable[[Reals], Reals]:
+    """Cam angles kept inside the stretch between two joints."""
+    return lambda theta: np.clip(theta, low + _INSIDE if low else 0.0, high - _INSIDE)
 
 
 def _joints(cam: DiscCam | FlatCam) -> list[float]:
@@ -896,8 +884,7 @@ def _joints(cam: DiscCam | FlatCam) -> list[float]:
 
 
 def _of_turn(cam: DiscCam, layers: tuple[str, ...], low: float, high: float) -> Stretch:
-    def inside(theta: Reals) -> Reals:
-        return np.clip(theta, low + _INSIDE if low else 0.0, high - _INSIDE)
+    inside = _within(low, high)
 
     def points(theta: Reals) -> Points:
         pitch, contact = cam.points(inside(theta))
@@ -936,23 +923,20 @@ def swing_cam(name: str, design: Any) -> Part:
     """
     cam, mirror = _served(name, design)
     contact = design.contact_of(cam)
-    center = cam.middle
-    places = sorted({0.0, *contact[0], center, *contact[1], 1.0})
-    middle = complex(_pitch_of(cam, mirror)(np.array([center]))[0])
-    circles = [Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle)]
-    shaft = design.section.shaft_radius
-    if shaft > 0.0:
-        circles.append(Circle("SHAFT", shaft))
-    return Part(
+    places = sorted({0.0, *contact[0], cam.middle, *contact[1], 1.0})
+    middle = complex(cam.points(np.array([cam.middle])).pitch[0])
+    middle = middle.conjugate() if mirror else middle
+    made = Part(
         name=name,
         title=f"{'main' if name == 'main_cam' else 'return'} cam, {'ex' if cam.sense > 0 else 'in'}ternal profile",
         stretches=tuple(_of_stroke(cam, mirror, part, part in contact) for part in pairwise(places)),
         closed=False,
-        circles=tuple(circles),
+        circles=(Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle),),
         notes=_swing_notes(cam, mirror),
         findings=_swing_findings(cam, design),
         extra_columns=("k", "cam_angle [deg]", "pressure_angle [deg]", "curvature_radius [mm]"),
     )
+    return _on_shaft(made, design.section.shaft_radius)
 
 
 def _served(name: str, design: Any) -> tuple[AnyCam, bool]:
@@ -967,14 +951,6 @@ def _swing_findings(cam: AnyCam, design: Any) -> tuple[str, ...]:
     others = [words for words, other in design.cams.items() if other is not cam]
     found = _failed(design, "cam-undercut")
     return tuple(message for message in found if not any(words in message for words in others))
-
-
-def _pitch_of(cam: AnyCam, mirror: bool) -> Callable[[Reals], Points]:
-    def pitch(k: Reals) -> Points:
-        points = cam.points(k).pitch
-        return points.conj() if mirror else points
-
-    return pitch
 
 
 def _of_stroke(cam: AnyCam, mirror: bool, part: tuple[float, float], touches: bool) -> Stretch:
@@ -1015,9 +991,7 @@ def cycloidal_disc(design: Any) -> Part:
     def extra(tau: Reals) -> Reals:
         return np.stack([np.degrees(tau), disc.profile(tau)[1]])
 
-    stretches = tuple(
-        Stretch(CAM_LAYERS[:1], points, k * pitch, (k + 1) * pitch, extra=extra) for k in range(disc.lobes)
-    )
+    ends = pitch * np.arange(disc.lobes + 1)
     circles = [] if spec.bearing_radius is None else [Circle("BORE", spec.bearing_radius)]
     if spec.output_pins is not None:
         given = spec.output_pins
@@ -1026,7 +1000,7 @@ def cycloidal_disc(design: Any) -> Part:
     return Part(
         name="disc",
         title="cycloidal disc",
-        stretches=stretches,
+        stretches=tuple(Stretch(CAM_LAYERS[:1], points, *span, extra=extra) for span in pairwise(ends.tolist())),
         closed=True,
         circles=tuple(circles),
         notes=(
@@ -1045,6 +1019,7 @@ def cycloidal_ring(design: Any) -> Part:
     """The circle of the ring pins, a vertex at the centre of each, with the pins."""
     disc = design.disc
     pitch = _TURN / disc.pins
+    ends = pitch * np.arange(disc.pins + 1)
     pins = (Circle("PINS", disc.pin, cmath.rect(disc.circle, pitch * k)) for k in range(disc.pins))
 
     def points(angle: Reals) -> Points:
@@ -1056,9 +1031,7 @@ def cycloidal_ring(design: Any) -> Part:
     return Part(
         name="ring",
         title="ring with pins",
-        stretches=tuple(
-            Stretch(("PIN_CIRCLE",), points, k * pitch, (k + 1) * pitch, extra=extra) for k in range(disc.pins)
-        ),
+        stretches=tuple(Stretch(("PIN_CIRCLE",), points, *span, extra=extra) for span in pairwise(ends.tolist())),
         closed=True,
         circles=tuple(pins),
         notes=(f"{disc.pins} pins of radius {disc.pin:.9g} mm, the first on the x axis",),
@@ -1142,18 +1115,17 @@ def closed_cam(name: str, design: Any) -> Part:
     places = [(0, 0.0), (0, start), (0, 0.5 * closed.own), (0, end), *((i, closed.starts[i]) for i in (1, 2, 3))]
     ends = [t for _, t in places[1:]] + [closed.starts[4]]
     spans = [(i, low, high) for (i, low), high in zip(places, ends, strict=True) if high > low]
-    shaft = design.section.shaft_radius
     found = design.check("closed-contour")
-    return Part(
+    made = Part(
         name=name,
         title=f"{'return' if late else 'main'} cam, closed {'ex' if closed.cam.sense > 0 else 'in'}ternal contour",
         stretches=tuple(_of_sector(closed, frame, *span) for span in spans),
         closed=True,
-        circles=(Circle("SHAFT", shaft),) if shaft > 0.0 else (),
         notes=_closed_notes(closed, cycle, late),
-        findings=tuple(found[late].message for _ in (0,) if found[late].status == "fail"),
+        findings=(found[late].message,) if found[late].status == "fail" else (),
         extra_columns=("cam_angle_of_own_stroke [deg]",),
     )
+    return _on_shaft(made, design.section.shaft_radius)
 
 
 def _of_sector(closed: Any, frame: Any, sector: int, low: float, high: float) -> Stretch:
@@ -1190,8 +1162,11 @@ _LOOKS = 36
 def coupler_path(design: Any) -> Makers:
     """The path of the coupler point of a four-bar."""
     if design.coupler_point is None:
-        message = "no path to export: the file has no coupler_point"
-        raise MissingSection(message, key="", fix=f"give coupler_point: [x, y], or --part {PATH}B")
+        raise MissingSection(
+            "no path to export: the file has no coupler_point",
+            key="",
+            fix=f"give coupler_point: [x, y], or --part {PATH}B",
+        )
     return {f"{PATH}P": partial(_path, design, "P")}
 
 

@@ -54,9 +54,8 @@ class Model:
     def relation(self, kind: str, order: int | None = None, **roles: int) -> None:
         """A relation between components by their roles."""
         place = "" if order is None else f' order="{order}"'
-        rows = [
-            f'      <ref hint="{self._kinds[number]}" id="{number}" role="{role}"/>' for role, number in roles.items()
-        ]
+        named = ((role, number, self._kinds[number]) for role, number in roles.items())
+        rows = [f'      <ref hint="{hint}" id="{number}" role="{role}"/>' for role, number, hint in named]
         head = f'    <relation id="{len(self.relations) + 1}"{place} type="{kind}">'
         self.relations.append("\n".join([head, *rows, "    </relation>"]))
 
@@ -157,13 +156,10 @@ def _gear_data(mesh: _Mesh, i: int, hand: int) -> Iterator[tuple[str, str, Any]]
     yield "normal_module", "mm", pair.module
     yield "helix_angle_reference_diameter", "deg", hand * math.degrees(pair.helix_angle) + 0.0
     yield "face_width", "mm", widths[i] if widths else None
-    for key, radii in (
-        ("reference_circle_diameter", pair.reference_radius),
-        ("base_circle_diameter", pair.base_radius),
-        ("tip_diameter", pair.tip_radius),
-        ("root_diameter", pair.root_radius),
-    ):
-        yield key, "mm", 2.0 * abs(radii[i])
+    yield "reference_circle_diameter", "mm", 2.0 * abs(pair.reference_radius[i])
+    yield "base_circle_diameter", "mm", 2.0 * abs(pair.base_radius[i])
+    yield "tip_diameter", "mm", 2.0 * abs(pair.tip_radius[i])
+    yield "root_diameter", "mm", 2.0 * abs(pair.root_radius[i])
     yield "normal_tooth_thickness_at_reference_diameter", "mm", _positive(pair.tooth_thickness[i])
 
 

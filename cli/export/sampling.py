@@ -89,13 +89,9 @@ class Sampled:
 
     def backwards(self) -> Sampled:
         """The same, run through backwards."""
-        return replace(
-            self,
-            parameter=self.parameter[::-1],
-            nodes=self.nodes[:, ::-1],
-            control=self.control[:, ::-1],
-            knots=(self.knots[-1] - self.knots)[::-1] if self.knots.size else self.knots,
-        )
+        nodes, control = self.nodes[:, ::-1], self.control[:, ::-1]
+        knots = (self.knots[-1] - self.knots)[::-1] if self.knots.size else self.knots
+        return replace(self, parameter=self.parameter[::-1], nodes=nodes, control=control, knots=knots)
 
 
 def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST_POINTS) -> Sampled:
@@ -121,7 +117,10 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
     while True:
         parameter, nodes = np.append(probes[:, 0], probes[-1, -1]), _nodes(points)
         cubic = _cubic(parameter, nodes) if spline else None
-        off = _from_chords(points) if cubic is None else _from_cubics(cubic, probes, points)
+        if cubic is None:
+            off = _from_chords(points)
+        else:  # of each point from that of the cubic at the same parameter
+            off = np.abs(_values(cubic(probes.ravel())).reshape(points.shape) - points)
         worst = _peaks(off) * (1.0 + _UNSEEN)
         wide = worst > tolerance
         if not wide.any():
@@ -179,12 +178,6 @@ def _from_chords(points: Points) -> Reals:
     way = points - start
     along = np.real(way * chord.conj()) / np.where(square == 0.0, 1.0, square)
     off: Reals = np.abs(way - np.clip(along, 0.0, 1.0) * chord)
-    return off
-
-
-def _from_cubics(cubic: Any, probes: Reals, points: Points) -> Reals:
-    """Distance of each point from that of the cubic at the same parameter."""
-    off: Reals = np.abs(_values(cubic(probes.ravel())).reshape(points.shape) - points)
     return off
 
 

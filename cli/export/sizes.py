@@ -94,7 +94,7 @@ def driver_lines(design: GenevaDrive, outlines: Outlines) -> Lines:
         ("edges of the disc, from the pin's radius on", "", math.degrees(cmath.phase(edge)), "deg"),
         ("distance of both edges of a cut-out", "", 2.0 * edge.imag, "mm"),
         ("axis to a cut-out, on the pin's radius", "", outlines.cut_vertex, "mm"),
-        ("radius of a cut-out", "", _arc(outlines.cut_radius), "mm"),
+        ("radius of a cut-out", "", outlines.cut_radius if math.isfinite(outlines.cut_radius) else "straight", "mm"),
     ]
     return [*given, *_quantities(design, ("crank_radius", "locking_angle"))]
 
@@ -176,10 +176,6 @@ def _quantities(design: GenevaDrive | MutilatedGearDwell, names: Iterable[str]) 
     """Results of the design by their names, those that it has."""
     found = [each for name in names if (each := design.quantity(name)) is not None]
     return [(each.words, each.symbol, each.value, each.unit) for each in found]
-
-
-def _arc(radius: float) -> float | str:
-    return radius if math.isfinite(radius) else "straight"
 
 
 def _ends(piece: Piece) -> tuple[complex, complex]:

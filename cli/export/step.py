@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.export.contour import Circle, Contour, describe
+from gearlink.cli.export.contour import Circle, Contour, design_hash
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.files import unfinished
 from gearlink.core.base.errors import GearlinkError
@@ -54,11 +54,11 @@ def as_step(contour: Contour, spec: Any, width: float | None = None) -> bytes:
     occ = _Occ()
     if turned is None:
         edges = [edge for control, knots in _profile(contour) for edge in occ.edges(control, knots)]
-        solid = occ.prism(occ.face(edges, part.rim, contour.holes), across, part.slant)
+        face, way = occ.face(edges, part.rim, contour.holes), occ.gp.gp_Vec(part.slant * across, 0.0, across)
+        solid = occ.BRepPrimAPI.BRepPrimAPI_MakePrism(face, way).Shape()
     else:
         solid = occ.helicoid(_profile(contour), turned, part.rim, across, contour.holes)
-    words = describe(contour, spec)
-    return occ.written(solid, f"{spec.name} {contour.part.name}", f"{words['design_sha256']}")
+    return occ.written(solid, f"{spec.name} {part.name}", design_hash(spec))
 
 
 def helix_error(contour: Contour, width: float | None) -> float:
@@ -86,9 +86,8 @@ def width_of(contour: Contour, width: float | None) -> float:
     """
     part = contour.part
     if not part.closed or len(contour.lines) == 0 or not contour.lines[0].closed:
-        raise NoStep(
-            f"the profile of {part.name} is open, a solid needs a closed one\ngive another --part, or --as dxf"
-        )
+        words = f"the profile of {part.name} is open, a solid needs a closed one"
+        raise NoStep(f"{words}\ngive another --part, or --as dxf")
     across = part.width if width is None else width
     if across is None:
         raise NoStep(f"a solid of {part.name} needs a width\ngive --width MM, or face_width in the file of a gear pair")
@@ -114,10 +113,9 @@ class _Occ:
         except ModuleNotFoundError as error:
             raise NoStep("STEP needs the library cadquery-ocp: pip install cadquery-ocp, or use --as dxf") from error
         except ImportError as error:  # as on a computer without a screen
-            raise NoStep(
-                f"cadquery-ocp is installed, but a library that it needs is not: {error}\n"
-                "install it (libGL.so.1 on Debian and Ubuntu: apt-get install libgl1), or use --as dxf"
-            ) from error
+            words = f"cadquery-ocp is installed, but a library that it needs is not: {error}"
+            fix = "install it (libGL.so.1 on Debian and Ubuntu: apt-get install libgl1), or use --as dxf"
+            raise NoStep(f"{words}\n{fix}") from error
         messenger = _static(self.Message.Message, "DefaultMessenger")()
         for printer in list(messenger.Printers()):  # it reports every transfer on standard output
             messenger.RemovePrinter(printer)
@@ -214,10 +212,6 @@ class _Occ:
             made.Add(each)
         return made.Face()
 
-    def prism(self, face: Any, width: float, slant: float) -> Any:
-        """The solid over a face, straight along the axis or at a slant to it."""
-        return self.BRepPrimAPI.BRepPrimAPI_MakePrism(face, self.gp.gp_Vec(slant * width, 0.0, width)).Shape()
-
     def written(self, solid: Any, name: str, signature: str) -> bytes:
         """The bytes of a STEP file that holds one solid."""
         _static(self.Interface.Interface_Static, "SetCVal")("write.step.unit", "MM")
@@ -308,7 +302,5 @@ def turning(angle: float, tolerance: float) -> Turning:
             heights = np.array([knots[i + 1 : i + 4].mean() for i in range(control.size)])
             return Turning(knots, control, heights, float(np.abs(off).max()))
         spans *= 2
-    raise TooLong(
-        f"a helical gear that turns by {math.degrees(abs(angle)):.4g} deg over its width is too long for a file"
-        "\ngive a smaller --width, or a larger --tolerance"
-    )
+    words = f"a helical gear that turns by {math.degrees(abs(angle)):.4g} deg over its width is too long for a file"
+    raise TooLong(f"{words}\ngive a smaller --width, or a larger --tolerance")

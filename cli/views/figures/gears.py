@@ -3,6 +3,8 @@
 The mesh zone has the line of action with A, C and E, contact points, and the frame about them; the table has words,
 symbols, units and values of both gears. The scene of a pair turns by so many pitches that the teeth, and where it goes
 the holes, come to meet themselves. The contour comes with sliding, pressure and root stress along the path of contact.
+
+The sheet of a pair has these, the rating and the drawing's table; a rack stands in place of gear 2.
 """
 
 from __future__ import annotations
@@ -13,20 +15,22 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
-from typing import TYPE_CHECKING, Any, Protocol
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
 from gearlink.cli.views.scenes.gears import gear as gear_body
-from gearlink.cli.views.scenes.gears import holes_for, rack_scene
+from gearlink.cli.views.scenes.gears import holes_for, rack_body, rack_scene
 from gearlink.cli.views.scenes.of_motion import Frame
-from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Points, Readout, Reals, Scene, track
+from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Readout, Reals, Scene, placed, track
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.parts.gears.checks import gear_quantity
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry, driven_turn
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 
 if TYPE_CHECKING:
@@ -37,6 +41,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.design import GearPairDesign
     from gearlink.core.parts.gears.along_path import AlongPath, Place
     from gearlink.core.parts.gears.data import GearData
+    from gearlink.core.parts.gears.rack import RackMesh
     from gearlink.core.parts.gears.shifts.contour import BlockingContour
 
 
@@ -238,19 +243,8 @@ def _parted(symbol: str) -> list[tuple[str, float, str, float]]:
     return [*found, ("*", 1.0, "top", 0.9)] if plain != symbol else found
 
 
-class Contact(Protocol):
-    """What a mesh zone shows of a mesh; points in mm."""
-
-    @property
-    def pitch_point(self) -> complex: ...
-    @property
-    def direction(self) -> complex: ...
-    @property
-    def contact_start(self) -> complex: ...
-    @property
-    def contact_end(self) -> complex: ...
-    @property
-    def contacts(self) -> list[complex]: ...
+Contact: TypeAlias = MeshGeometry | RackGeometry
+"""What a mesh zone shows of a mesh; points in mm."""
 
 
 def zone_size(geometry: Contact, module: float) -> tuple[float, float]:
@@ -281,29 +275,16 @@ def contact_path(axes: Axes, geometry: Contact, length: float) -> None:
     axes.plot(path.real, path.imag, **marked, label="path of contact A–E")
     axes.plot(touching.real, touching.imag, "o", **dots, label="contact points")
     for name, point, shift in (("A", ends[0], (8, -4)), ("C", pitch, (8, -4)), ("E", ends[1], (8, -2))):
-        _boxed(axes, name, point, shift)
-
-
-def _boxed(axes: Axes, name: str, point: complex, shift: tuple[float, float]) -> None:
-    box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8}
-    place = (point.real, point.imag)
-    axes.annotate(name, place, shift, textcoords="offset points", fontsize=9, bbox=box, zorder=7)
+        place, box = (point.real, point.imag), {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none"}
+        look: dict[str, Any] = {"fontsize": 9, "bbox": box | {"alpha": 0.8}, "zorder": 7}
+        axes.annotate(name, place, shift, textcoords="offset points", **look)
 
 
 def zone_legend(axes: Axes) -> None:
     handles, labels = axes.get_legend_handles_labels()
     unique = dict(zip(labels, handles, strict=True))
-    axes.legend(
-        unique.values(),
-        unique.keys(),
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.11),
-        ncols=3,
-        frameon=False,
-        fontsize=7.5,
-        handlelength=2.4,
-        columnspacing=1.2,
-    )
+    look: dict[str, Any] = {"frameon": False, "fontsize": 7.5, "handlelength": 2.4, "columnspacing": 1.2}
+    axes.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, -0.11), ncols=3, **look)
 
 
 COLORS = (style.BLUE, style.ORANGE)
@@ -374,27 +355,11 @@ def _small_alone(axes: Axes, scene: Scene, mesh: Mesh) -> None:
 
 def _axis_distance(axes: Axes, pair: GearPair) -> None:
     """The centre distance, below the gears."""
-    drop = -1.12 * max(abs(radius) for radius in (*pair.tip_radius, pair.root_radius[1]))
-    words = f"centre distance {abs(pair.center_distance):.6g} mm"
-    style.dimension(
-        axes,
-        complex(0.0, drop),
-        complex(pair.center_distance, drop),
-        words,
-        shift=(0, -4),
-        from_points=(0j, complex(pair.center_distance)),
-    )
+    drop, far = -1.12 * max(abs(radius) for radius in (*pair.tip_radius, pair.root_radius[1])), pair.center_distance
+    ends = complex(0.0, drop), complex(far, drop)
+    words = f"centre distance {abs(far):.6g} mm"
+    style.dimension(axes, *ends, words, shift=(0, -4), from_points=(0j, complex(far)))
     axes.update_datalim([(0.0, 1.18 * drop)])  # room for the words
-
-
-def _teeth(mesh: Mesh, gear: int, chord: float, count: int, first: float) -> Points | None:
-    from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
-
-    try:
-        profile = ToothProfile.of(mesh.pair, gear)
-    except NoSolution:
-        return None
-    return outline(profile, chord, count, first) + mesh.geometry.axes[gear]
 
 
 def mesh_zone(axes: Axes, mesh: Mesh) -> None:
@@ -411,29 +376,36 @@ def mesh_zone(axes: Axes, mesh: Mesh) -> None:
 
 def gear_zone(axes: Axes, mesh: Mesh, gear: int, wide: float, high: float) -> None:
     """The teeth of one gear and its circles in a mesh zone of that half width and height [mm]."""
-    _zone_teeth(axes, mesh, gear, high)
+    if mesh.pair.teeth[gear] < 0:
+        _zone_ring(axes, mesh)
+    else:
+        _zone_teeth(axes, mesh, gear, high)
     _zone_circles(axes, mesh, gear, high, wide)
 
 
 def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
+    from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
+
     pair, geometry = mesh.pair, mesh.geometry
-    if pair.teeth[gear] < 0:
-        _zone_ring(axes, mesh)
-        return
     pitch_angle = 2.0 * math.pi / pair.teeth[gear]
     beside = math.ceil(1.3 * high / (pair.root_radius[gear] * pitch_angle)) + 1 if pair.root_radius[gear] > 0 else 99
     count = min(pair.teeth[gear], 2 * beside + 1)
     first = geometry.first_space[gear] - pitch_angle * (count // 2)
-    teeth = _teeth(mesh, gear, 1e-3 * pair.module, count, first)
-    if teeth is None:
+    center = geometry.axes[gear]
+    try:
+        teeth = outline(ToothProfile.of(pair, gear), 1e-3 * pair.module, count, first) + center
+    except NoSolution:
         words = f"gear {mesh.gears[gear]}: the tool cannot cut these teeth"
         place, box = (0.5, 0.93 - 0.08 * gear), {"facecolor": "white", "edgecolor": style.RED, "linewidth": 0.6}
         axes.text(*place, words, transform=axes.transAxes, ha="center", color=style.RED, fontsize=8, bbox=box, zorder=8)
         return
-    center, color = geometry.axes[gear], COLORS[gear]
-    body = [*teeth, center]
-    style.area(axes, body, facecolor=color, alpha=0.16, linewidth=0)
-    axes.plot(teeth.real, teeth.imag, color=color, linewidth=1.5, zorder=3, gid=f"zone-{gear + 1}")
+    _zone_body(axes, gear, teeth, [*teeth, center])
+
+
+def _zone_body(axes: Axes, gear: int, teeth: Any, body: Any) -> None:
+    """The line of the teeth of one gear, and what lies behind it tinted."""
+    style.area(axes, body, facecolor=COLORS[gear], alpha=0.16, linewidth=0)
+    axes.plot(teeth.real, teeth.imag, color=COLORS[gear], linewidth=1.5, zorder=3, gid=f"zone-{gear + 1}")
 
 
 def _zone_ring(axes: Axes, mesh: Mesh) -> None:
@@ -442,9 +414,7 @@ def _zone_ring(axes: Axes, mesh: Mesh) -> None:
     center = geometry.axes[1]
     teeth = RingProfile(pair).outline(48) * np.exp(1j * geometry.first_space[1]) + center
     rim = center - 2.0 * pair.root_radius[1] * np.exp(-2j * math.pi * np.linspace(0.0, 1.0, 181))
-    body = np.concatenate([teeth, rim])
-    style.area(axes, body, facecolor=COLORS[1], alpha=0.16, linewidth=0)
-    axes.plot(teeth.real, teeth.imag, color=COLORS[1], linewidth=1.5, zorder=3, gid="zone-2")
+    _zone_body(axes, 1, teeth, np.concatenate([teeth, rim]))
 
 
 def _zone_circles(axes: Axes, mesh: Mesh, gear: int, high: float, wide: float) -> None:
@@ -636,3 +606,145 @@ def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]
         drawn(stresses, f"root stress, {along.data.called(gear)}", color, style.DASHED)
     other.set_ylim(bottom=0.0)
     return found
+
+
+# The sheet of a pair
+
+Panel = Callable[["Axes"], None]
+Rows = tuple[list[str], list[list[str]]]
+
+_ROW = 0.0125
+"""Share of a page's height that a row of a table takes."""
+_REMARK = 60
+"""Letters of a remark in a row of the values, which has the width of its table to itself."""
+_LONG = 6.0
+"""Tip radii of the gear that a rack is drawn long."""
+_RATED = ("contact_stress", "safety_pitting", "root_stress", "safety_bending")
+
+
+def draw(command: str, design: GearPairDesign) -> Figure:
+    """The figure of `gear` or `analyze` on a gear pair."""
+    title = f"{design.spec.name}: {command}"
+    if design.rack is not None:
+        rack = design.rack
+        teeth = [gear_text(rack.pair.teeth[0]), "rack"]
+        head = ["", "", "unit", "gear 1", "rack"]
+        drawing = head, _drawing(design)[1]
+        rows = value_rows(teeth, [f"{rack.pair.module:g}"] * 2, [rack.quantity]) + _rating(design)
+        drawings = (partial(rack_and_gear, design=design), partial(rack_zone, rack=rack))
+        return _sheet(title, drawings, (head, rows), drawing, [partial(path_plot, data=design.data)])
+    mesh, data = Mesh(design.gear_pair), design.data
+    plots = [partial(contour_plot, contour=design.contour), partial(path_plot, data=data)]
+    head, rows = values([mesh])
+    drawings = (partial(whole_gears, mesh=mesh), partial(mesh_zone, mesh=mesh))
+    return _sheet(title, drawings, (head, rows + _rating(design)), _drawing(design), plots)
+
+
+def _sheet(
+    title: str, drawings: tuple[Panel, Panel], shown: Rows, drawing: Rows, plots: Sequence[Callable[[Axes, Axes], None]]
+) -> Figure:
+    """The mesh, both tables side by side, then the plots and their keys; a lone plot takes the width."""
+    most = max(len(shown[1]), len(drawing[1]))
+    lines = _ROW * (most + 3)
+    shares = [0.28, lines, 0.3, 0.06]
+    figure = panels.page(title, 0.1 + sum(shares), large=False)
+    grid = figure.add_gridspec(4, 2, height_ratios=shares, width_ratios=(1.3, 1.0))
+    first, zone = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[0, 1])
+    drawings[0](first)
+    drawings[1](zone)
+    zone_legend(zone)
+    tables = grid[1, :].subgridspec(1, 2, wspace=0.06)
+    for column, (words, (head, rows)) in enumerate((("Values", shown), ("Gear table of the drawing", drawing))):
+        axes = figure.add_subplot(tables[0, column])
+        panels.heading(axes, words)
+        ruled(axes, head, rows, size=6.2, rows_of=most, at=(0.48, 0.56))
+    for column, plot in enumerate(plots):
+        across = column if len(plots) > 1 else slice(None)
+        plot(figure.add_subplot(grid[2, across]), figure.add_subplot(grid[3, across]))
+    return figure
+
+
+def _drawing(design: GearPairDesign) -> Rows:
+    """The lines of the table `drawing`; none where the teeth have no such table."""
+    try:
+        table = design.table("drawing")
+    except NoSolution:
+        return ["", "", "unit", "", ""], []
+    columns: Any = table.data
+    rows = [
+        [item, symbol, unit.replace("um", "µm"), gear_text(one, unit), gear_text(other, unit)]
+        for item, symbol, one, other, unit in zip(*columns, strict=True)
+    ]
+    return ["", "", "unit", "gear 1", "gear 2"], rows
+
+
+def _rating(design: GearPairDesign) -> list[list[str]]:
+    """Stresses and safeties where the file has a load, and what they rest on."""
+    rows = []
+    for name in _RATED:
+        found: Any = design.quantity(name)
+        if found is not None:
+            rows.append([*headed(name), *(gear_text(value) or "–" for value in found.value)])
+    if rows:
+        remarks = (wrap(design.rests_on(name), _REMARK) for name in ("contact_stress", "root_stress"))
+        rows += [[line, "", "", "", ""] for lines in remarks for line in lines]
+    return rows
+
+
+def rack_and_gear(axes: Axes, design: GearPairDesign) -> None:
+    """Gear and rack to scale, and the distance of the axis from the datum line."""
+    rack = design.rack
+    assert rack is not None, "chosen by the figure"
+    style.drawing(axes)
+    panels.heading(axes, f"Gear 1, z = {rack.pair.teeth[0]}; rack, z = {design.rack_teeth}")
+    radius, drawn = rack.pair.tip_radius[0], design.rack_teeth
+    if drawn * rack.pitch_on_line > _LONG * radius:  # the gear would be a dot beside it
+        drawn -= 2 * math.ceil(0.5 * (drawn - _LONG * radius / rack.pitch_on_line))
+    scene = rack_scene(rack, design.rack_teeth, design.rack_back, np.zeros(1), drawn)
+    scene_axes.draw(axes, scene)
+    if drawn < design.rack_teeth:
+        _break_lines(axes, scene, f"{drawn} of {design.rack_teeth} teeth shown")
+    drop, distance = -1.12 * radius, rack.center_distance
+    ends = complex(0.0, drop), complex(distance, drop)
+    style.dimension(axes, *ends, f"a = {distance:.6g} mm", shift=(-26, -4), from_points=(0j, complex(distance)))
+    axes.margins(0.08)
+    axes.autoscale_view()
+
+
+def _break_lines(axes: Axes, scene: Scene, words: str) -> None:
+    """A zigzag at either end of a rack that goes on, and how much of it is shown."""
+    body = next(part for part in scene.parts if isinstance(part, Body) and part.name.startswith("rack"))
+    points = placed(body, 0)
+    left, right = float(points.real.min()), float(points.real.max())
+    wide = right - left
+    for end in (float(points.imag.min()), float(points.imag.max())):
+        x = left + wide * np.array([-0.4, 0.35, 0.45, 0.55, 0.65, 1.4])
+        y = end + wide * np.array([0.0, 0.0, 0.3, -0.3, 0.0, 0.0])
+        axes.plot(x, y, color=style.BLACK, linewidth=0.9, zorder=6, gid="break")
+    place = right + 0.4 * wide, float(points.imag.max())
+    axes.annotate(words, place, (4, -10), textcoords="offset points", fontsize=7)
+
+
+def rack_zone(axes: Axes, rack: RackMesh) -> None:
+    """The teeth in mesh, with line of action, path of contact, contact points, circles and lines."""
+    geometry = RackGeometry(rack)
+    pitch, (wide, high) = geometry.pitch_point, zone_size(geometry, rack.pair.module)
+    style.drawing(axes)
+    panels.heading(axes, "Mesh zone, gear 1 driving")
+    gear_zone(axes, Mesh(rack.pair), 0, wide, high)
+    _rack_teeth(axes, rack, geometry, high)
+    for name, x, dashes, color in (
+        ("datum line", rack.center_distance, style.LONG, style.GREY),
+        ("tip line", rack.center_distance - rack.path.height * rack.pair.module, style.DASHED, COLORS[1]),
+    ):
+        axes.axvline(x, color=color, linewidth=0.9, linestyle=dashes, label=name, zorder=2)
+    contact_path(axes, geometry, 3.0 * (high + wide))
+    zone_frame(axes, pitch, wide, high, ("gear 1", "rack"))
+
+
+def _rack_teeth(axes: Axes, rack: RackMesh, geometry: RackGeometry, high: float) -> None:
+    count = 2 * math.ceil(1.3 * high / rack.pitch_on_line) + 3
+    place = np.array([rack.center_distance + 1j * geometry.first_space[1]])
+    body = rack_body(rack, count, 9.0 * high, place)
+    outline = place + 1j * body.outline
+    _zone_body(axes, 1, outline, outline)

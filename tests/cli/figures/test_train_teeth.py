@@ -134,7 +134,7 @@ def test_the_rim_of_the_file_is_drawn_and_exported():
     made = design(DRAWN["ring"])
     circles = {circle.layer: circle.radius for circle in parts.makers(made)["gear5"]().circles}
     assert circles["RIM"] == 90.0
-    scene = import_module("gearlink.cli.views.figures.two_gear_four_bar").build(made, np.zeros(1))
+    scene = import_module("gearlink.cli.views.figures.planet_linkages").build_two_gears(made, np.zeros(1))
     rims = [part for part in scene.parts if isinstance(part, Body) and part.repeats == 0]
     assert max(abs(rims[0].outline)) == pytest.approx(90.0, rel=1e-12)
     ring = next(gear for gear in made.layout.gears if gear.axis == "A")
