@@ -222,8 +222,8 @@ def _pressure_in_track(axes: Axes, design: CylindricalCamDesign, phi: Any) -> No
     place, worst = math.degrees(design.steepest.place), math.degrees(design.max_pressure_angle)
     label = f"bottom, ≤ {worst:.4g}° at {place:.4g}°"
     axes.plot(degrees, bottom, color=style.BLUE, linewidth=1.5, label=label)
-    axes.plot(degrees, outside, color=style.ORANGE, linewidth=1.2, linestyle=style.DASHED,
-              label=f"outside, ≤ {math.degrees(design.pressure_angle_outside):.4g}°")  # fmt: skip
+    label = f"outside, ≤ {math.degrees(design.pressure_angle_outside):.4g}°"
+    axes.plot(degrees, outside, color=style.ORANGE, linewidth=1.2, linestyle=style.DASHED, label=label)
     failing.past(axes, degrees, bottom, np.abs(bottom) > limit, "above the limit")
     for sign, label in ((1.0, f"limit ±{limit:g}°"), (-1.0, "_")):
         axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)), label=label)
@@ -233,9 +233,8 @@ def _pressure_in_track(axes: Axes, design: CylindricalCamDesign, phi: Any) -> No
 def _motion(rows: list[Axes], phi: Any, rates: Any, unit: str) -> None:
     """Lift and its derivatives over the cam angle."""
     for order, (axes, label, color) in enumerate(zip(rows[:4], _LABELS, _COLORS, strict=True)):
-        panels.turn_panel(
-            axes, f"{label}\n[{panels.per_input(unit, order)}]", "cam angle [deg]" if axes is rows[-1] else ""
-        )
+        over = "cam angle [deg]" if axes is rows[-1] else ""
+        panels.turn_panel(axes, f"{label}\n[{panels.per_input(unit, order)}]", over)
         values = np.degrees(rates[order]) if unit == "rad" and order == 0 else rates[order]
         axes.plot(np.degrees(phi), values, color=color, linewidth=1.6)
 

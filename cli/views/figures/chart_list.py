@@ -80,9 +80,8 @@ class DesignChart:
         found = [self.values(x, parameter) for parameter in (curves or (None,))]
         if all(bool(np.all(np.isnan(column))) for column in found):
             raise NoSolution(f"the chart {self.name} has no values there", fix="widen the range, or use other curves")
-        return Table(
-            self.name, (self.x.name, *self.columns(curves)), (self.x.unit, *(self.y.unit for _ in found)), (x, *found)
-        )
+        units = self.x.unit, *(self.y.unit for _ in found)
+        return Table(self.name, (self.x.name, *self.columns(curves)), units, (x, *found))
 
     def columns(self, curves: Sequence[float]) -> list[str]:
         """The name of each curve's column."""
@@ -127,35 +126,21 @@ _BAND = _axis("dwell_tolerance", "tolerance ±", r"$\tau$")
 _SWING = Axis("swing", "deg", "swing", r"$\gamma$")
 _PIVOT = Axis("pivot_ratio", "1", "pivot distance over arm", r"$\lambda$")
 _LAMBDAS = (1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
+_OF_SWING = ("machines.wide_swing.charts", "wide-swing-cam")
 
 
-def _of_law(name: str, title: str, words: str, symbol: str, quantity: str) -> DesignChart:
+def _of_law(quantity: str, words: str, symbol: str) -> DesignChart:
     """A chart of the unloading law over the swing."""
-    return DesignChart(
-        name,
-        title,
-        "wide-swing dissertation, chapter 2, (8), (10), (9)",
-        quantity,
-        _SWING,
-        _axis(quantity, words, symbol),
-        _PIVOT,
-        (30.0, 300.0),
-        _LAMBDAS,
-        "machines.wide_swing.charts",
-        "wide-swing-cam",
-    )
+    name, title = quantity.replace("_", "-"), f"{words.capitalize()} of the unloading law"
+    source, y = "wide-swing dissertation, chapter 2, (8), (10), (9)", _axis(quantity, words, symbol)
+    return DesignChart(name, title, source, quantity, _SWING, y, _PIVOT, (30.0, 300.0), _LAMBDAS, *_OF_SWING)
 
 
-def _of_dwell(
-    name: str, title: str, function: str, x: Axis, parameter: Axis, *ends: tuple[float, ...], peaked: bool = False
-) -> DesignChart:
+def _of_dwell(name: str, title: str, x: Axis, parameter: Axis, *ends: tuple[float, ...], **more: Any) -> DesignChart:
     """A chart of the dwell within a tolerance."""
-    span, curves = ends
-    module = "machines.three_gear.charts"
-    low, high = span
-    return DesignChart(
-        name, title, "own derivation", function, x, _WINDOW, parameter, (low, high), curves, module, peaked=peaked
-    )
+    (low, high), curves = ends
+    function = f"window_over_{name.removeprefix('dwell-')}"
+    return DesignChart(name, title, "own derivation", function, x, _WINDOW, parameter, (low, high), curves, **more)
 
 
 _I3 = _axis("i3", "gear ratio", "$i_3 = -z_3/z_5$")
@@ -212,7 +197,6 @@ CHARTS: dict[str, DesignChart] = {
         _of_dwell(
             "dwell-ratio",
             "Longest dwell within a tolerance over gear ratio",
-            "window_over_ratio",
             _I3,
             _BAND,
             (-5.0, -0.5),
@@ -221,7 +205,6 @@ CHARTS: dict[str, DesignChart] = {
         _of_dwell(
             "dwell-tolerance",
             "Longest dwell over its tolerance at constant gear ratio",
-            "window_over_tolerance",
             _BAND,
             _I3,
             (0.02, 5.0),
@@ -230,24 +213,15 @@ CHARTS: dict[str, DesignChart] = {
         _of_dwell(
             "dwell-frame",
             "Dwell within ±0.5° over frame ratio at constant gear ratio",
-            "window_over_frame",
             _D,
             _I3,
             (2.5, 7.0),
             (-2.4, -1.8, -1.3),
             peaked=True,
         ),
-        _of_law("velocity-peak", "Peak velocity of the unloading law", "peak velocity", "$B$", "velocity_peak"),
-        _of_law(
-            "acceleration-peak",
-            "Peak acceleration of the unloading law",
-            "peak acceleration",
-            "$C$",
-            "acceleration_peak",
-        ),
-        _of_law(
-            "energy-parameter", "Energy parameter of the unloading law", "energy parameter", "$N$", "energy_parameter"
-        ),
+        _of_law("velocity_peak", "peak velocity", "$B$"),
+        _of_law("acceleration_peak", "peak acceleration", "$C$"),
+        _of_law("energy_parameter", "energy parameter", "$N$"),
         DesignChart(
             "curvature-ratio",
             "Minimum curvature radius of an internal profile over its maximum radius",
@@ -258,8 +232,7 @@ CHARTS: dict[str, DesignChart] = {
             Axis("cycle_angle", "deg", "cam angle of the stroke", r"$\varphi$"),
             (40.0, 300.0),
             (40.0, 60.0, 80.0, 100.0, 120.0),
-            "machines.wide_swing.charts",
-            "wide-swing-cam",
+            *_OF_SWING,
         ),
     )
 }

@@ -47,7 +47,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.machines.flatbed_press.design import FlatbedPress
-    from gearlink.core.machines.slider_crank.design import SliderCrankDesign
     from gearlink.core.mechanism.motion import Course
 
 
@@ -191,11 +190,8 @@ def frame(design: FlatbedPress) -> Frame:
         machine = Machine(design, np.zeros(1), cams=False)
         to_gear = machine.gear_axis / LEVEL
         to_cylinder = (machine.cylinder_axis - complex(machine.cylinder_joints[3][0])) / LEVEL
-        section = PressLoads.model_construct(
-            bed_side=-1,
-            gear_1_direction=math.degrees(np.angle(to_gear)),
-            cylinder_direction=math.degrees(np.angle(to_cylinder)),
-        )
+        gear, cylinder = (math.degrees(np.angle(way)) for way in (to_gear, to_cylinder))
+        section = PressLoads.model_construct(bed_side=-1, gear_1_direction=gear, cylinder_direction=cylinder)
         motion = type(design)(design.spec.model_copy(update={"loads": section})).moving
     return Frame(partial(inputs, motion.input), motion, LEVEL)
 
@@ -251,18 +247,9 @@ def _driving_circles(machine: Machine) -> list[Part]:
     """Pitch circles of the gears from N to the cylinder."""
     axis, n = machine.cylinder_axis, complex(machine.cylinder_joints[3][0])
     driven = abs(axis - n) / (1.0 + machine.design.cylinder.gear_ratio)
-    level = np.zeros_like(machine.fraction)
+    look: Any = {"turn": np.zeros_like(machine.fraction), "repeats": 0, "color": style.GREY, "width": 0.8}
     return [
-        Body(
-            outline=circle(radius, 120),
-            place=track(center, machine.fraction),
-            turn=level,
-            repeats=0,
-            color=style.GREY,
-            width=0.8,
-            label=label,
-            pitch=radius,
-        )
+        Body(outline=circle(radius, 120), place=track(center, machine.fraction), label=label, pitch=radius, **look)
         for label, center, radius in (("4", axis, driven), ("3", n, abs(axis - n) - driven))
     ]
 
@@ -284,14 +271,13 @@ def _cam_bodies(machine: Machine) -> list[Part]:
     if design.spec.cam is None:
         return []
     axis = track(machine.cam_axis, machine.fraction)
-    back = disc_cam(design.return_cam, axis, machine.cam_angle, panels.CAM_COLORS[1])
-    main = disc_cam(design.main_cam, axis, machine.cam_angle, panels.CAM_COLORS[0])
-    parts: list[Part] = [back, replace(main, fill="")]
-    places = (
-        design.cam_base_radius + machine.lift,
-        design.cam_base_radius - design.roller_center_distance + machine.lift,
+    main, back = (
+        disc_cam(cam, axis, machine.cam_angle, color)
+        for cam, color in zip((design.main_cam, design.return_cam), panels.CAM_COLORS, strict=True)
     )
-    rollers = [axis + place for place in places]
+    parts: list[Part] = [back, replace(main, fill="")]
+    places = design.cam_base_radius, design.cam_base_radius - design.roller_center_distance
+    rollers = [axis + (place + machine.lift) for place in places]
     for center, color in zip(rollers, panels.CAM_COLORS, strict=True):
         parts.append(wheel(center, design.spec.cam.roller_radius, machine.fraction, color=color, fill=pale(color, 0.3)))
     parts.append(Chain(joints=(rollers[0], rollers[1]), color=style.GREY, width=1.5))
@@ -310,7 +296,6 @@ def _cam_words(machine: Machine) -> tuple[Mark, ...]:
 POSITIONS = 12
 HIGHLIGHTED = 2
 BED, CYLINDER, LEAST = style.BLUE, style.GREEN, style.RED
-
 _ROWS = 720
 _SHAFT = 2.0 / 130.0
 """Width of a velocity arrow [inch]."""
@@ -423,28 +408,15 @@ def _arrows(
     top = float(np.abs(velocity).max())
     scale = top / longest
     drawn = velocity / scale
-    quiver = axes.quiver(
-        start.real,
-        start.imag,
-        drawn.real,
-        drawn.imag,
-        angles="xy",
-        scale_units="xy",
-        scale=1.0,
-        color=style.ORANGE,
-        units="inches",  # of the page: dots would make them thicker in PDF and thinner in a fine picture
-        width=_SHAFT,
-        headwidth=4.5,
-        headlength=6.0,
-        headaxislength=5.5,
-        zorder=5,
-    )
+    # Inches are of the page: dots would make them thicker in PDF and thinner in a fine picture.
+    look: Any = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "units": "inches", "width": _SHAFT}
+    look |= {"headwidth": 4.5, "headlength": 6.0, "headaxislength": 5.5, "color": style.ORANGE, "zorder": 5}
+    quiver = axes.quiver(start.real, start.imag, drawn.real, drawn.imag, **look)
     tips = start + drawn
     axes.update_datalim(np.column_stack([tips.real, tips.imag]))
-    round_speed = round_below(0.7 * top)
-    key = axes.quiverkey(
-        quiver, *place, round_speed / scale, f"{subject}: {round_speed:g} mm/s", labelpos="W", coordinates="axes"
-    )
+    speed = round_below(0.7 * top)
+    words = f"{subject}: {speed:g} mm/s"
+    key = axes.quiverkey(quiver, *place, speed / scale, words, labelpos="W", coordinates="axes")
     key.text.set_fontsize(8 if place[1] > 1.0 else 6.5)
     return tips
 
@@ -458,9 +430,8 @@ def _lanes(axes: Axes, points: list[complex], speed: Any, top: float) -> None:
         axes.plot([point.real] * 2, [point.imag, lane.imag], color=style.GREY, linewidth=0.4, linestyle=":", zorder=1)
         axes.plot([point.real], [point.imag], "s", color=BED, markersize=3.0, zorder=5)
         side = -1.0 if speed[number] >= 0.0 else 1.0
-        axes.text(
-            lane.real + side * 0.02 * stroke, lane.imag, str(number), fontsize=6.5, ha="center", va="center", zorder=7
-        )
+        place = lane.real + side * 0.02 * stroke, lane.imag
+        axes.text(*place, str(number), fontsize=6.5, ha="center", va="center", zorder=7)
     _arrows(axes, start, speed.astype(complex), 0.55 * stroke, "bed")
     panels.legend_below(axes, 2)
 
@@ -509,9 +480,8 @@ def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:
         return
     speed = design.cylinder.travel(found, 1).first * design.input_speed
     named = ", ".join(f"{angle:.1f}°" for angle in np.degrees(found[:6])) + (", …" if found.size > 6 else "")
-    axes.plot(
-        np.degrees(found), speed, "D", color="white", markeredgecolor=style.RED, markersize=5, label=f"equal: {named}"
-    )
+    look: Any = {"color": "white", "markeredgecolor": style.RED, "markersize": 5}
+    axes.plot(np.degrees(found), speed, "D", **look, label=f"equal: {named}")
 
 
 # Cams
@@ -526,7 +496,8 @@ def _draw_cams(command: str, design: FlatbedPress) -> Figure:
     cams = (design.main_cam, design.return_cam)
     panels.pressure_angles(curves[3], cams, design.spec.limits.pressure_angle, "")
     panels.curvatures(curves[4], cams, "cam angle [deg]")
-    panels.shade(curves, _phases(design))
+    laws = design.follower.segments
+    panels.shade(curves, [panels.Phase(law.phase, math.degrees(law.start), math.degrees(law.end)) for law in laws])
     _times(curves[4], design)
     below: Any = rows[5].subgridspec(1, 2, width_ratios=(1.55, 1.0))
     drawing = made.add_subplot(below[0])
@@ -542,13 +513,6 @@ def _times(axes: Axes, design: FlatbedPress) -> None:
     degrees = np.arange(0.0, 361.0)
     inputs = np.unwrap(np.asarray(design.bed.input_angle(np.radians(degrees))))
     time_axes.in_uneven_ms(axes, degrees, 1e3 * (inputs - inputs[0]) / design.input_speed)
-
-
-def _phases(design: FlatbedPress) -> list[panels.Phase]:
-    return [
-        panels.Phase(segment.phase, math.degrees(segment.start), math.degrees(segment.end))
-        for segment in design.follower.segments
-    ]
 
 
 def _follower(axes: list[Axes], design: FlatbedPress) -> None:
@@ -567,9 +531,8 @@ def _compensation(axes: Axes, design: FlatbedPress) -> None:
     """Difference of bed and cylinder travel that the cam makes good in the zone, over the input angle."""
     phi = np.linspace(design.sync_start, design.sync_end, 241)
     gap = difference(design.bed, design.cylinder, phi).value
-    panels.curves(
-        axes, "input angle [deg]", "bed less cylinder travel [mm]", f"Compensation: {design.compensation:.5g} mm"
-    )
+    title = f"Compensation: {design.compensation:.5g} mm"
+    panels.curves(axes, "input angle [deg]", "bed less cylinder travel [mm]", title)
     axes.plot(np.degrees(phi), gap - gap[0], color=style.GREEN, linewidth=1.6)
     end = float(np.degrees(phi[-1]))
     axes.plot([end], [design.compensation], "o", color=style.GREEN, markersize=4.5)
@@ -590,33 +553,21 @@ def _cams(axes: Axes, design: FlatbedPress) -> None:
     reach = 1.15 * spec.roller_radius
     left, right = rollers[1].real - reach, rollers[0].real + reach
     axes.plot([left, right], [0.0, 0.0], color=style.GREY, linewidth=0.8, linestyle="-.", zorder=2)
-    axes.plot(
-        [rollers[1].real, rollers[0].real],
-        [0.0, 0.0],
-        " ",
-        label=f"roller distance {design.roller_center_distance:.6g} mm",
-    )
+    words = f"roller distance {design.roller_center_distance:.6g} mm"
+    axes.plot([rollers[1].real, rollers[0].real], [0.0, 0.0], " ", label=words)
 
 
 # Parts that are designs of their own kind
 
 
 def _draw_parts(command: str, design: FlatbedPress) -> Figure:
-    """The pair of input gears, or the slider-crank D-E-F."""
+    """The pair of input gears, or D-E-F as a design of its own: its slider makes half the bed's stroke."""
+    name, part = design.spec.name, design.slider_crank
     if command == "gear":
-        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)])
+        return mesh_figure(f"{name}: {command}", [Mesh(design.gear_pair)])
     from gearlink.cli.views.figures import slider_crank
-
-    return slider_crank.draw(command, _slider_crank(design))
-
-
-def _slider_crank(design: FlatbedPress) -> SliderCrankDesign:
-    """D-E-F as a design of its own: its slider makes half the bed's stroke."""
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
     from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
 
-    part = design.slider_crank
-    spec = SliderCrankSpec(
-        kind="slider-crank", name=design.spec.name, stroke=part.stroke, rod=part.rod, offset=part.offset
-    )
-    return SliderCrankDesign(spec)
+    spec = SliderCrankSpec(kind="slider-crank", name=name, stroke=part.stroke, rod=part.rod, offset=part.offset)
+    return slider_crank.draw(command, SliderCrankDesign(spec))

@@ -48,7 +48,10 @@ def diagram(axes: Axes, design: GearTrainMobility) -> None:
         axes.plot([], [], color=color, linewidth=1.6, label=words)
         for gear in train.gears:
             style.circle(axes, places[gear.at], half, color=color, linewidth=1.6, zorder=3)
-            _fixing(axes, places, design, gear.at, gear.fixed_to, half, color)
+            pins = design.links[gear.fixed_to] if gear.fixed_to is not None else ()
+            if gear.at in pins and len(pins) > 1:
+                other = next(pin for pin in pins if pin != gear.at)
+                _fixing(axes, places[gear.at], places[other], half, color)
     for pin, place in places.items():
         axes.plot([place.real], [place.imag], "o", color="white", markeredgecolor=style.BLACK, markersize=7, zorder=6)
         style.letter(axes, place, pin, (19.0 * place.real, 19.0 * place.imag))
@@ -86,20 +89,8 @@ def _link(axes: Axes, name: str, points: list[complex]) -> None:
     axes.update_datalim([(1.2 * middle.real, 1.2 * middle.imag)])
 
 
-def _fixing(
-    axes: Axes,
-    places: dict[str, complex],
-    design: GearTrainMobility,
-    pin: str,
-    link: str | None,
-    radius: float,
-    color: str,
-) -> None:
+def _fixing(axes: Axes, center: complex, toward: complex, radius: float, color: str) -> None:
     """A dot where the rim of a fixed gear crosses its link."""
-    if link is None or pin not in design.links[link] or len(design.links[link]) < 2:
-        return
-    other = next(p for p in design.links[link] if p != pin)
-    way = (places[other] - places[pin]) / abs(places[other] - places[pin])
-    spot = places[pin] + 0.55 * radius * way
+    spot = center + 0.55 * radius * ((toward - center) / abs(toward - center))
     axes.plot([spot.real], [spot.imag], "s", color=color, markersize=8, zorder=5)
-    axes.plot([places[pin].real, spot.real], [places[pin].imag, spot.imag], color=color, linewidth=4, zorder=4)
+    axes.plot([center.real, spot.real], [center.imag, spot.imag], color=color, linewidth=4, zorder=4)

@@ -35,6 +35,7 @@ def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
     bar, offset, here = design.path_bar, design.offset, Positions.of(design, fraction)
     m, (a, b, c, d, e) = here.at("coupler", "M"), (mark.point for mark in here.marks[:5])  # an idler has a pin too
     apart = bool(abs(offset - bar.coupler) > 1e-9)
+    pins = {"A": a, "B": b, "C" if apart else "C, M": c, "D": d, "E": e}
     outline = np.array([0.0, bar.coupler, offset, 0.0])
     plate = here.body("coupler", outline, style.BLACK, width=0.5)
     path = here.body(FRAME, _path(design), style.GREEN, 0.0, width=1.5, name="path of M")
@@ -45,10 +46,7 @@ def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
             "y": Seen(coordinate("coupler", "M", 1j), style.ORANGE, "mm"),
         },
         "coupler point M [mm]",
-        marks=(
-            *letters("AE", **{"A": a, "B": b, "C" if apart else "C, M": c, "D": d, "E": e}),
-            *([Mark(m, "M")] * apart),
-        ),
+        marks=(*letters("AE", **pins), *([Mark(m, "M")] * apart)),
     )
 
 
@@ -86,14 +84,11 @@ def frame(design: GearedFiveBar) -> Frame:
 def _function_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
     here, ring = Positions(design.moving, frame(design).inputs(fraction)), design.spec.gears.ring is not None
     words, rim = "ring gear, fixed" if ring else "sun, fixed", design.outer_rim(design.mesh_names[0])
-    planet, fixed = train(
-        here,
-        list(design.meshes.values()),
-        (
-            Toothed("coupler", "B", style.BLUE, "2", "planet on the coupler"),
-            Toothed(FRAME, 0j, style.ORANGE, "" if ring else "5", words, ring, rim),
-        ),
+    gears = (
+        Toothed("coupler", "B", style.BLUE, "2", "planet on the coupler"),
+        Toothed(FRAME, 0j, style.ORANGE, "" if ring else "5", words, ring, rim),
     )
+    planet, fixed = train(here, list(design.meshes.values()), gears)
     seen = {"output": Seen(turned("output"), style.BLUE)}
     return here.scene((*fixed, *planet, here.chain), seen, "output angle [deg]")
 
@@ -132,7 +127,8 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
         ]
         return linkage.sheet(title, design, path_mechanism, _WORDS, charts)
     error = [_structural_error] if design.wanted is not None else []
-    return linkage.sheet(title, design, function_mechanism, _WORDS, [_function, *error, _span])
+    mechanism = partial(scene_axes.two_positions, build=build)
+    return linkage.sheet(title, design, mechanism, _WORDS, [_function, *error, _span])
 
 
 def _gears(design: GearedFiveBar) -> list[tuple[str, str]]:
@@ -154,29 +150,20 @@ def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
         axes.plot(*zip(*target.points, strict=True), "x", **look, label="required points")
 
 
-def function_mechanism(axes: Axes, design: GearedFiveBar) -> None:
-    """Links at the first input angle, lightly at the last; the planet and the fixed gear."""
-    scene_axes.two_positions(axes, design, build)
-
-
 def _coordinates(axes: Axes, design: GearedFiveBar, title: str, ylabel: str, *, rates: bool = False) -> None:
     """Both coordinates of the point M over the input angle, or their rates."""
     linkage.chart(axes, title, ylabel, "input angle [deg]", turn=False)
+    table = design.table("path")
+    turns = linkage.closed(table["input_angle"], 360.0 * design.period_turns)
     for name, color, line in (("x", style.BLUE, "-"), ("y", style.ORANGE, style.LONG)):
         column, words = (f"{name}_velocity", f"{name}′") if rates else (name, name)
-        axes.plot(*_over_period(design, column), color=color, linewidth=1.6, linestyle=line, label=words)
+        axes.plot(turns, linkage.closed(table[column]), color=color, linewidth=1.6, linestyle=line, label=words)
     if rates:
         axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     _period(axes, design)
     if rates:
         time_axes.in_time(axes, design.angular_speed, 1, "mm")
     panels.legend_above(axes, 2)
-
-
-def _over_period(design: GearedFiveBar, name: str) -> tuple[Any, Any]:
-    """A column of the path over the input angle, closed at the end of the period."""
-    table = design.table("path")
-    return linkage.closed(table["input_angle"], 360.0 * design.period_turns), linkage.closed(table[name])
 
 
 def _period(axes: Axes, design: GearedFiveBar) -> None:

@@ -81,12 +81,7 @@ def draw(command: str, design: GearedSixBar) -> Figure:
         partial(_curve, name="acceleration_ratio", ylabel="acceleration ratio\n[1/rad]", order=2),
         _transmission,
     ]
-    return linkage.sheet(title, design, mechanism, _WORDS, charts)
-
-
-def mechanism(axes: Axes, design: GearedSixBar) -> None:
-    """Links and gears at the start, lightly half a loop later."""
-    scene_axes.two_positions(axes, design, build)
+    return linkage.sheet(title, design, partial(scene_axes.two_positions, build=build), _WORDS, charts)
 
 
 def _curve(axes: Axes, design: GearedSixBar, name: str, ylabel: str, order: int) -> None:

@@ -25,25 +25,17 @@ if TYPE_CHECKING:
 
 
 def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
-    """Positions over fractions of the loop, from mid-dwell on; with an arm over the turns that bring the planet
-    home."""
-    here = Positions.of(design, fraction)
-    whole = Positions.of(design, loop(721))
+    """Positions over fractions of the loop from mid-dwell on; with an arm over the turns that bring the planet home."""
+    here, whole = Positions.of(design, fraction), Positions.of(design, loop(721))
     a, b, m = here.at("carrier", "A"), here.at("carrier", "B"), here.at("planet", "M")
     path = whole.at("planet", "M")
-    ring, planet = train(
-        here,
-        [design.mesh],
-        (
-            Toothed(FRAME, 0j, style.ORANGE, "", "ring gear, fixed", ring=True, rim=design.rim_of("")),
-            Toothed("planet", 0j, style.BLUE, "2", "planet"),
-        ),
+    gears = (
+        Toothed(FRAME, 0j, style.ORANGE, "", "ring gear, fixed", ring=True, rim=design.rim_of("")),
+        Toothed("planet", 0j, style.BLUE, "2", "planet"),
     )
-    parts: list[Part] = [
-        *ring,
-        *planet,
-        here.body(FRAME, path, style.GREEN, 0.0, width=1.5, name="path of the point M"),
-    ]
+    ring, planet = train(here, [design.mesh], gears)
+    drawn = here.body(FRAME, path, style.GREEN, 0.0, width=1.5, name="path of the point M")
+    parts: list[Part] = [*ring, *planet, drawn]
     links = Chain(joints=(a, b, m), color=style.BLUE)
     if design.spec.is_arm:
         far = 1.1 * float(np.abs(path).max()) * np.exp(1j * here.turn("arm"))
@@ -77,15 +69,14 @@ _WORDS = {
 
 def draw(command: str, design: HypocycloidDwell) -> Figure:
     """The sheet of a command on a hypocycloid dwell."""
+    title = f"{design.spec.name}: {command}"
     if command == "gear":
-        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.mesh, "", ("2", "ring"))])
+        return mesh_figure(title, [Mesh(design.mesh, "", ("2", "ring"))])
     if design.spec.is_arm:
         from gearlink.cli.views.figures import of_motion
 
         return of_motion.draw(command, design)
-    return linkage.sheet(
-        f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified, _transmission]
-    )
+    return linkage.sheet(title, design, mechanism, _WORDS, [_turn, _magnified, _transmission])
 
 
 def mechanism(axes: Axes, design: HypocycloidDwell) -> None:

@@ -31,18 +31,25 @@ _TURN = 360.0
 
 
 def forces(axes: Axes, design: Any) -> None:
-    """Force between each roller and its cam."""
-    _rollers(axes, design, "Contact forces", "force [N]", "force")
+    """Force between each roller and its cam; of a stroke empty where it touches nothing."""
+    if hasattr(design, "strokes"):
+        _stroke(axes, design, "Force of the roller on its cam", "force [N]", "{}_force", lambda rest: rest.force)
+    else:
+        _rollers(axes, design, "Contact forces", "force [N]", "force")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    panels.legend_above(axes, 2)
+    if not hasattr(design, "strokes"):
+        panels.legend_above(axes, 2)
 
 
 def pressures(axes: Axes, design: Any) -> None:
     """Hertzian pressure of each roller, and what is allowed."""
-    _rollers(axes, design, "Hertzian pressure", "p [N/mm²]", "pressure")
+    if hasattr(design, "strokes"):
+        _stroke(axes, design, "Hertzian pressure", "p [N/mm²]", "{}_pressure", lambda rest: rest.pressure)
+    else:
+        _rollers(axes, design, "Hertzian pressure", "p [N/mm²]", "pressure")
     _allowed(axes, design)
     axes.set_ylim(bottom=0.0)
-    panels.legend_above(axes, 3)
+    panels.legend_above(axes, 4 if hasattr(design, "strokes") else 3)
 
 
 def _rollers(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> None:
@@ -80,23 +87,18 @@ def _allowed(axes: Axes, design: Any) -> None:
 def residual(axes: Axes, design: Any) -> None:
     """Vibration that is left in the dwell, over the speed, with the working speed and what is allowed."""
     table = design.table("spectrum")
-    speed, amplitude = table["speed"], table["residual"]
-    unit = table.units[table.columns.index("residual")]
-    panels.curves(
-        axes,
-        f"speed [{table.units[table.columns.index('speed')]}]",
-        f"residual [{unit}]",
-        "Residual vibration over the speed",
-    )
-    axes.plot(speed, amplitude, color=style.PURPLE, linewidth=1.4)
+    speed, units = table["speed"], dict(zip(table.columns, table.units, strict=True))
+    unit, title = units["residual"], "Residual vibration over the speed"
+    panels.curves(axes, f"speed [{units['speed']}]", f"residual [{unit}]", title)
+    axes.plot(speed, table["residual"], color=style.PURPLE, linewidth=1.4)
     at = float(speed[-1]) / 1.3
     axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=f"speed {at:.5g}")
     left = design.quantity("residual_amplitude")
     allowed, here = design.section.vibration.allowed_residual, 0.0 if left is None else float(left.value)
-    if allowed is not None and here > allowed:
-        words = f"{here:.4g} {unit} at this speed"
-        axes.plot([at], [here], "o", color=style.WRONG, markersize=6.0, zorder=7, label=words, gid="fails")
     if allowed is not None:
+        if here > allowed:
+            words = f"{here:.4g} {unit} at this speed"
+            axes.plot([at], [here], "o", color=style.WRONG, markersize=6.0, zorder=7, label=words, gid="fails")
         axes.axhline(allowed, color=style.RED, linewidth=1.0, linestyle=style.DASHED, label=f"allowed {allowed:g}")
     axes.set_xlim(float(speed[0]), float(speed[-1]))
     axes.set_ylim(bottom=0.0)
@@ -110,13 +112,12 @@ def profile(axes: Axes, design: Any, name: str) -> None:
     turned = np.radians(design.cam_degrees(phi))
     contact = roller.position - roller.radius * roller.normal
     points = np.exp(-1j * roller.sense * turned) * contact
-    pressure = design.contact(name, phi).pressure
-    _colored(axes, points, pressure, f"{name} cam: pressure [N/mm²]", _allowed_pressure(design))
-    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
+    _colored(axes, design, points, design.contact(name, phi).pressure, f"{name} cam: pressure [N/mm²]")
 
 
-def _colored(axes: Axes, points: Any, values: Any, title: str, limit: float | None) -> None:
+def _colored(axes: Axes, design: Any, points: Any, values: Any, title: str) -> None:
     """A profile by its pressure, on a scale from 0 to what is allowed, where that is known; red above it."""
+    limit = _allowed_pressure(design)
     panels.drawing(axes, title)
     panels.few_ticks(axes.xaxis, 4)
     panels.heading(axes, title)
@@ -131,6 +132,7 @@ def _colored(axes: Axes, points: Any, values: Any, title: str, limit: float | No
     if above.any() or undercut.any():
         panels.legend_above(axes, 1)
     axes.autoscale_view()
+    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
 
 
 def stroke_sheet(design: Any) -> Figure:
@@ -140,9 +142,9 @@ def stroke_sheet(design: Any) -> Figure:
     heights, share = [1.0] * count + [1.5] * has["pressure"], 0.21 * count + 0.3 * has["pressure"]
     made, rows = panels.stack(f"{design.spec.name}: loads", heights, share, large=False)
     grid = iter(rows)
-    stroke_forces(next(grid), design)
+    forces(next(grid), design)
     if has["pressure"]:
-        stroke_pressures(next(grid), design)
+        pressures(next(grid), design)
     axes = next(grid)
     title = "Torque on the cam" if design.spec.drive is None else "Torque on the crank"
     _stroke(axes, design, title, "torque [N m]", "input_torque")
@@ -151,25 +153,11 @@ def stroke_sheet(design: Any) -> Figure:
     if has["residual"]:
         residual(next(grid), design)
     if has["pressure"]:
-        stroke_profile(next(grid), design.strokes[0], _allowed_pressure(design))
+        stroke_profile(next(grid), design, design.strokes[0])
     return made
 
 
-def stroke_forces(axes: Axes, design: Any) -> None:
-    """Force of the roller on the cam of each stroke; empty where it touches nothing."""
-    _stroke(axes, design, "Force of the roller on its cam", "force [N]", "{}_force", lambda rest: rest.force)
-    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-
-
-def stroke_pressures(axes: Axes, design: Any) -> None:
-    """Hertzian pressure over each stroke, and what is allowed."""
-    _stroke(axes, design, "Hertzian pressure", "p [N/mm²]", "{}_pressure", lambda rest: rest.pressure)
-    _allowed(axes, design)
-    axes.set_ylim(bottom=0.0)
-    panels.legend_above(axes, 4)
-
-
-def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
+def stroke_profile(axes: Axes, design: Any, stroke: Any) -> None:
     """The cam of a stroke, its profile coloured by the pressure; open where the roller stands in its slot."""
     from gearlink.core.machines.wide_swing.strokes import dwell_arc
 
@@ -180,8 +168,7 @@ def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
     rest = dwell_arc(stroke.cam)
     points[len(parts[0])] = complex(np.nan, np.nan)
     axes.plot(rest.real, rest.imag, color=style.GREY, linewidth=0.9, label="_rest of the turn")
-    _colored(axes, points, pressure, f"{stroke.cam_words}: pressure [N/mm²]", limit)
-    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
+    _colored(axes, design, points, pressure, f"{stroke.cam_words}: pressure [N/mm²]")
 
 
 def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_rest: Any = None) -> None:
@@ -195,13 +182,10 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_re
         axes.plot(x, values, color=color, linewidth=1.5, linestyle=line, label=stroke.words)
         if column.endswith("pressure"):
             _too_much(axes, design, x, values)
-    rests = design.rests if in_rest is not None else ()
-    for number, rest in enumerate(rests):
+    look: Any = {"color": style.GREEN, "linewidth": 1.5, "linestyle": style.CHAIN}
+    for number, rest in enumerate(design.rests if in_rest is not None else ()):
         phi = np.linspace(rest.start, rest.start + rest.width, 61)
-        label = None if number else "rests"
-        axes.plot(
-            np.degrees(phi), in_rest(rest)(phi), color=style.GREEN, linewidth=1.5, linestyle=style.CHAIN, label=label
-        )
+        axes.plot(np.degrees(phi), in_rest(rest)(phi), **look, label=None if number else "rests")
     axes.set_xlim(0.0, _TURN if design.whole else math.degrees(design.cam.cycle_angle))
     if design.whole:
         style.numbers_at(axes, [30.0 * i for i in range(13)])
@@ -293,7 +277,7 @@ def draw(design: Any) -> Figure:
         elif name:
             _pin(axes, design, name)
         else:
-            _shaking(axes, design)
+            _round(axes, "Shaking force", _forces_of(design, "frame"), "force", style.RED)
     return made
 
 
@@ -319,8 +303,7 @@ def _cams(design: Any) -> list[str]:
 
 def _profile(axes: Axes, design: Any, name: str) -> None:
     if hasattr(design, "strokes"):
-        stroke = next(each for each in design.strokes if each.name == name)
-        stroke_profile(axes, stroke, _allowed_pressure(design))
+        stroke_profile(axes, design, next(each for each in design.strokes if each.name == name))
     else:
         profile(axes, design, name)
 
@@ -476,18 +459,15 @@ def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:
     columns = _forces_of(design)
     names = next(names for names in _alike_pins(design, _XY) if name in names)
     title = f"Pin{'s' if len(names) > 1 else ''} {_words(names)}"
-    _round(axes, title, columns, f"{name}_x", f"{name}_y", style.BLUE)
+    _round(axes, title, columns, name, style.BLUE)
 
 
-def _shaking(axes: Axes, design: LoadsDesign) -> None:
-    _round(axes, "Shaking force", _forces_of(design, "frame"), "force_x", "force_y", style.RED)
-
-
-def _round(axes: Axes, title: str, columns: dict[str, Any], x: str, y: str, color: str) -> None:
+def _round(axes: Axes, title: str, columns: dict[str, Any], name: str, color: str) -> None:
     """A force about its joint with marks of the input angle, or that it is 0."""
-    _locus(axes, title, columns[x], columns[y], color)
-    if columns[x].any() or columns[y].any():
-        _angle_marks(axes, columns, columns[x], columns[y])
+    x, y = columns[f"{name}_x"], columns[f"{name}_y"]
+    _locus(axes, title, x, y, color)
+    if x.any() or y.any():
+        _angle_marks(axes, columns, x, y)
     else:
         axes.text(0.5, 0.62, "0 N throughout", transform=axes.transAxes, fontsize=8, ha="center")
 
@@ -548,19 +528,18 @@ def _locus(axes: Axes, title: str, x: Any, y: Any, color: str) -> None:
     axes.tick_params(labelsize=7)
 
 
-def _always(_design: LoadsDesign) -> bool:
-    return True
+def _rolls(design: Any) -> bool:
+    """Whether rollers of the design run on cams."""
+    return hasattr(design, "own_rollers") or hasattr(design, "strokes")
 
 
 _CURVES: tuple[tuple[Panel, Callable[[Any], bool]], ...] = (
-    (_torque, _always),
-    (_inertia, _always),
+    (_torque, lambda _: True),
+    (_inertia, lambda _: True),
     (_teeth, lambda design: bool(design.meshes_found)),
     (_speed, lambda design: design.speed_min is not None),
-    (forces, lambda design: hasattr(design, "own_rollers")),
-    (pressures, lambda design: hasattr(design, "own_rollers") and design.section.roller is not None),
-    (stroke_forces, lambda design: hasattr(design, "strokes")),
-    (stroke_pressures, lambda design: hasattr(design, "strokes") and design.section.roller is not None),
+    (forces, _rolls),
+    (pressures, lambda design: _rolls(design) and design.section.roller is not None),
     (residual, lambda design: design.section.vibration is not None and design.residual_amplitude),
     (_deflection, lambda design: design.section.vibration is not None and design.dwell_twist is not None),
 )
@@ -607,21 +586,17 @@ def courses(loads: Any) -> dict[str, Reals]:
 
 def largest_torque(loads: Any) -> float:
     """Input at which the torque is largest in magnitude [rad]."""
-    place = max(loads.torque_range, key=lambda extreme: abs(extreme.value)).place
-    return float(place)
+    return float(max(loads.torque_range, key=lambda extreme: abs(extreme.value)).place)
 
 
 def mechanism(axes: Axes, loads: Any) -> None:
     """The mechanism with the forces on the second link of each joint, at the input of the largest torque."""
     design, q = analysed(loads), largest_torque(loads)
-    scene = shown.build(design, np.array([fraction_at(frame_of(design), q % _period(design))]), shown.wishes("force"))
+    given = design.moving.input
+    within = q % (given.end - given.start) if given.turns else q
+    scene = shown.build(design, np.array([fraction_at(frame_of(design), within)]), shown.wishes("force"))
     panels.drawing(axes, f"At the largest torque, input angle {math.degrees(q):.4g}°")
     scene_axes.draw(axes, scene)
-
-
-def _period(design: Any) -> float:
-    given = design.moving.input
-    return float(given.end - given.start) if given.turns else math.inf
 
 
 def analysed(loads: Any) -> Any:

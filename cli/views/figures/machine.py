@@ -61,8 +61,8 @@ def build(design: Machine, fraction: Reals) -> Scene:
     for i, name in enumerate(names):
         corner = _CELL * complex(i % columns, -(i // columns))
         own = _own(design, name, fraction)
-        parts += [_moved(part, *_fit(own, corner)) for part in own.parts]
         scale, shift = _fit(own, corner)
+        parts += [_moved(part, scale, shift) for part in own.parts]
         marks += [Mark(track(scale * mark.point + shift, fraction), "", pivot=True) for mark in own.marks if mark.pivot]
         marks.append(Mark(track(corner + complex(0.5, 0.96) * _CELL, fraction), name))
     degrees = 360.0 * design.cycle_turns * fraction
@@ -143,8 +143,6 @@ _BAR = 0.16
 """Height of the bar with the runs below a curve, the row being 1."""
 _STATUS = {"pass": style.GREEN, "warn": style.ORANGE, "fail": style.WRONG}
 _INNER = 3.0
-
-
 _AROUND = 0.16
 """Of the height of A4: title, axis and legend of the timing."""
 
@@ -155,11 +153,7 @@ def draw(command: str, design: Any) -> Figure:
         return _loads(design)
     if command == "register":
         return _register(design)
-    made = panels.page(
-        f"{design.spec.name}: timing", _AROUND + 0.085 * len(design.spec.members), least=_least_height(design, _ROW)
-    )
-    _line(made.add_subplot(), design)
-    return made
+    return line_sheet(design, share=_AROUND + 0.085 * len(design.spec.members))
 
 
 _ROW, _RING = 0.034, 0.03
@@ -171,9 +165,10 @@ def _least_height(design: Any, each: float) -> float:
     return _AROUND + each * len(design.spec.members)
 
 
-def line_sheet(design: Any) -> Figure:
-    """The timing as a line, A3 or larger."""
-    made = panels.page(f"{design.spec.name}: timing", least=_least_height(design, _ROW), large=True, lying=True)
+def line_sheet(design: Any, **paper: Any) -> Figure:
+    """The timing as a line, on A3 or larger where nothing is said of the paper."""
+    paper = paper or {"large": True, "lying": True}
+    made = panels.page(f"{design.spec.name}: timing", least=_least_height(design, _ROW), **paper)
     _line(made.add_subplot(), design)
     return made
 
@@ -193,21 +188,14 @@ def _degrees(design: Any) -> Any:
 def _runs(design: Any, name: str) -> list[tuple[str, float, float]]:
     """Runs of a member, from a start on the dial."""
     phase = design.phases[design.spec.root(name)]
-    runs = [(run.name, design.timing.on_dial(phase + run.start), run.duration) for run in design.timing.runs(name)]
-    return [(name, start, start + duration) for name, start, duration in runs]
+    runs = [(run, design.timing.on_dial(phase + run.start)) for run in design.timing.runs(name)]
+    return [(run.name, start, start + run.duration) for run, start in runs]
 
 
 _NAME_WIDTH, _RELATION_WIDTH = 16, 54
 """Characters in a line of a member's name beside its row, and of a relation beside the circle."""
 
-
-def _called(member: str) -> str:
-    """A member as it is called on sheets."""
-    return member.replace("_", " ")
-
-
 # The line
-
 
 _SAMPLED = 1e-5  # of the range: rows do not meet a minimum more closely
 
@@ -224,7 +212,9 @@ def _line(axes: Axes, design: Any) -> None:
         axes.plot(_degrees(design), bottom + _BAR + 0.1 + 0.6 * share, color=style.BLUE, linewidth=1.6, label=name)
         _bars(axes, design, name, bottom)
         low, high = (0.0 if abs(end) < _SAMPLED * (high - low) else end for end in (low, high))
-        labels.append(f"{fill(_called(name), _NAME_WIDTH)}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
+        labels.append(
+            f"{fill(name.replace('_', ' '), _NAME_WIDTH)}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}"
+        )
     for relation, margin in design.margins:
         _relation(axes, design, rows, relation, margin)
     style.curves(axes, "machine angle [deg]", "")
@@ -335,7 +325,7 @@ def _circle(axes: Any, design: Any) -> None:
         span = float(np.ptp(values))
         share = (values - values.min()) / span if span > 0.0 else np.zeros_like(values)
         axes.plot(_degrees(design) * turn, radius + 0.26 + 0.58 * share, color=style.BLUE, linewidth=1.3)
-        axes.text(0.0, radius + 0.46, _called(name), fontsize=9, fontweight="bold", ha="center", va="center",
+        axes.text(0.0, radius + 0.46, name.replace("_", " "), fontsize=9, fontweight="bold", ha="center", va="center",
                   path_effects=style.outlined(), zorder=8)  # fmt: skip
     axes.set_ylim(0.0, _INNER + len(members))
     axes.text(0.5, 0.5, "machine angle,\nclockwise from the top", transform=axes.transAxes, ha="center", va="center",
@@ -371,9 +361,9 @@ def _loads(design: Any) -> Figure:
     axes = made.add_subplot(grid[0])
     _over(axes, design, "Torque on the main shaft", "torque [N m]")
     for i, column in enumerate(name for name in found.columns if name.endswith(".torque")):
-        line = _LINES[(i // len(_COLORS) + i) % len(_LINES)]
-        axes.plot(x, found[column], color=_COLORS[i % len(_COLORS)], linestyle=line, linewidth=1.1,
-                  label=_called(column.removesuffix(".torque")))  # fmt: skip
+        look: Any = {"color": _COLORS[i % len(_COLORS)], "linestyle": _LINES[(i // len(_COLORS) + i) % len(_LINES)]}
+        words = column.removesuffix(".torque").replace("_", " ")
+        axes.plot(x, found[column], **look, linewidth=1.1, label=words)
     axes.plot(x, found["input_torque"], color=style.BLACK, linewidth=1.9, label="sum")
     panels.legend_above(axes, 6)
     if runs:
@@ -386,13 +376,8 @@ def _loads(design: Any) -> Figure:
         _over(swing, design, "Twist of the discs relative to the first", "wind-up [deg]")
         table = design.table("wind_up_course")
         for i, column in enumerate(table.columns[2:]):
-            swing.plot(
-                table["input_angle"],
-                table[column],
-                color=_COLORS[i % len(_COLORS)],
-                linewidth=1.2,
-                label=_called(column),
-            )
+            look = {"color": _COLORS[i % len(_COLORS)], "linewidth": 1.2, "label": column.replace("_", " ")}
+            swing.plot(table["input_angle"], table[column], **look)
         panels.legend_above(swing, 6)
     return made
 
@@ -406,10 +391,8 @@ def _over(axes: Axes, design: Any, title: str, ylabel: str) -> None:
 def _register(design: Any) -> Figure:
     """What every source of every member gives to the register at the print."""
     found = design.table("budget")
-    sigma, words = (
-        np.asarray(found["sigma"]),
-        [f"{a}: {b}" for a, b in zip(found["member"], found["source"], strict=True)],
-    )
+    words = [f"{a}: {b}" for a, b in zip(found["member"], found["source"], strict=True)]
+    sigma = np.asarray(found["sigma"])
     order = np.argsort(sigma)
     made = panels.page(f"{design.spec.name}: register", 0.2 + 0.03 * len(order))
     axes = made.add_subplot()

@@ -101,9 +101,8 @@ def _lock(design: MutilatedGearDwell, wheel: tuple[Points, Reals], driven: tuple
     plate = np.concatenate([arc, lock.plate * np.exp(1j * rim)])
     for outline, count, (place, turn), name in ((disc, groups, wheel, _LOCK), (plate, lock.stops, driven, "")):
         whole = np.concatenate([outline * cmath.rect(1.0, TURN * k / count) for k in range(count)])
-        yield Body(
-            outline=np.append(whole, whole[0]), place=place, turn=turn, repeats=count, color=_LOCK_COLOR, name=name
-        )
+        look: Any = {"repeats": count, "color": _LOCK_COLOR, "name": name}
+        yield Body(outline=np.append(whole, whole[0]), place=place, turn=turn, **look)
 
 
 _LOCK, _LOCK_COLOR = "locking disc and plate", style.GREEN
@@ -143,17 +142,9 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     gap = np.linspace(design.group_teeth * step, TURN / gears.groups, 180)
     part = np.concatenate([group, root * np.exp(1j * gap)])
     whole = np.concatenate([part * np.exp(1j * TURN * k / gears.groups) for k in range(gears.groups)])
-    return Body(
-        outline=np.append(whole, whole[0]),
-        place=center,
-        turn=turn,
-        repeats=gears.groups,
-        color=style.BLUE,
-        fill=pale(style.BLUE),
-        label="1",
-        name=f"wheel, {gears.groups} × {design.group_teeth} of {design.full_teeth} teeth",
-        pitch=mesh.working_radius[0],
-    )
+    name = f"wheel, {gears.groups} × {design.group_teeth} of {design.full_teeth} teeth"
+    look: Any = {"repeats": gears.groups, "color": style.BLUE, "fill": pale(style.BLUE), "label": "1", "name": name}
+    return Body(outline=np.append(whole, whole[0]), place=center, turn=turn, pitch=mesh.working_radius[0], **look)
 
 
 _WORDS = {

@@ -105,5 +105,5 @@ def _curve(axes: Axes, motion: Motion, order: int, *, narrow: bool) -> None:
     elif narrow:
         style.full_turn(axes)
     axes.set_xlim(*(math.degrees(end) if turning else end for end in (given.start, given.end)))
-    axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
-              color=_COLORS[order], linewidth=1.6)  # fmt: skip
+    x, y = np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate
+    axes.plot(x, y, color=_COLORS[order], linewidth=1.6)

@@ -60,7 +60,7 @@ def build_rocker(design: GearedRocker, fraction: Reals) -> Scene:
     hand = here.body("output", tip, style.ORANGE, 0.0, width=5.0, name="hand on the output")
     rocker = turned("rocker").less(float(here.whole.turn("rocker")[0]))
     return here.scene(
-        (*five, *two, hand, fixed_circle(0j, design.crank_length), here.chain),
+        (*five, *two, hand, fixed_circle(design.crank_length), here.chain),
         {"output": Seen(OUTPUT, style.ORANGE), "rocker": Seen(rocker, style.BLACK)},
         "angle from crank angle 0 [deg]",
         values={"output": ("°", np.degrees(here.turn("output")))},
@@ -118,8 +118,8 @@ def build_two_gears(design: TwoGearFourBar, fraction: Reals) -> Scene:
     planet, output = train(here, [design.mesh], gears)
     steps = bands(("back-step", math.degrees(step.start), math.degrees(step.end), STEP) for step in design.back_steps)
     seen = {"output": Seen(OUTPUT, style.ORANGE)}
-    parts = *output, *planet, fixed_circle(0j, design.crank_length), here.chain
-    return here.scene(parts, seen, "output angle [deg]", marked=steps)
+    path = fixed_circle(design.crank_length)
+    return here.scene((*output, *planet, path, here.chain), seen, "output angle [deg]", marked=steps)
 
 
 _WORDS = {

@@ -50,8 +50,7 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
     for (name, found), line in zip(_signs(design), _LINES, strict=False):
         axes.plot(degrees, found.band, color=style.BLUE, linestyle=line, linewidth=1.6, label=f"99.73 %{name}")
         axes.plot(degrees, found.worst, color=style.ORANGE, linestyle=line, linewidth=1.1, label=f"worst{name}")
-    if design.section.tolerance is not None:
-        limit = design.section.tolerance
+    if (limit := design.section.tolerance) is not None:
         axes.axhline(limit, color=style.RED, linewidth=1.2, linestyle=style.CHAIN, label="allowed")
     places = (math.degrees(flip) for flip in design.flips or ())
     shown = (place + 360.0 * math.ceil((degrees[0] - place) / 360.0) for place in places)
@@ -69,9 +68,8 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     order = sorted(costs[0], key=lambda name: -max(float(cost[name].max()) for cost in costs))
     for name, color in zip(order, _COLORS, strict=False):
         for cost, line in zip(costs, _LINES, strict=False):
-            axes.plot(
-                degrees, cost[name], color=color, linestyle=line, label=panels.abridged(name) if line == "-" else None
-            )
+            label = panels.abridged(name) if line == "-" else None
+            axes.plot(degrees, cost[name], color=color, linestyle=line, label=label)
     axes.set_xlim(degrees[0], degrees[-1])
     shown = f", the {len(_COLORS)} largest of {len(order)}" if len(order) > len(_COLORS) else ""
     dashed = "; dashed: torque −1" if len(costs) > 1 else ""

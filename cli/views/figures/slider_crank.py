@@ -62,7 +62,7 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
         (
             Line(points=-offset - 1j * ways),
             *(Line(points=points, dashed=True) for points in dead),
-            fixed_circle(0j, crank),
+            fixed_circle(crank),
             block(here.at("slider"), 0.8 * size, size, style.BLUE),
             *_racks(design, here, whole),
             here.chain,
@@ -97,10 +97,8 @@ def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
     scene = build(design, np.array([0.5 * (folded + extended), folded, extended]) / TURN)
     ahead = build(design, np.array([0.5 * (folded + extended) / TURN + scene_axes.AHEAD]))
     scene_axes.draw(axes, scene, ahead=ahead)
-    angles = part.dead_center_folded, part.dead_center_extended
-    for i, (name, color, angle) in enumerate(
-        zip(("folded", "stretched"), (style.ORANGE, style.BLUE), angles, strict=True), 1
-    ):
+    ends = ("folded", style.ORANGE, part.dead_center_folded), ("stretched", style.BLUE, part.dead_center_extended)
+    for i, (name, color, angle) in enumerate(ends, 1):
         words = f"{name}, rod at {style.number(math.degrees(angle), 5)}° to the slide line"
         scene_axes.lightly(axes, scene, i, color, words)
     axes.plot([], [], color=style.BLACK, linewidth=2.4, label="half-way in crank angle")
@@ -140,14 +138,12 @@ def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: compl
 
 def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     """Travel of the slider from its nearest place, velocity per crank speed, over the direction of the crank."""
-    folded, extended = (
-        math.degrees(at) % 360.0 for at in (design.dead_center_folded_at, design.dead_center_extended_at)
-    )
+    dead = design.dead_center_folded_at, design.dead_center_extended_at
+    folded, extended = (math.degrees(at) % 360.0 for at in dead)
     degrees = np.unique(np.append(np.arange(721) * 0.5, (folded, extended)))
     depth, speed = DEPTH.rates(design.moving, np.radians(degrees), 1)
-    panels.turn_panel(
-        travel, "travel of the\nslider [mm]", title=f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}"
-    )
+    title = f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}"
+    panels.turn_panel(travel, "travel of the\nslider [mm]", title=title)
     travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel", label="slider")
     if design.rack_drive is not None:
         rack = design.rack_drive.stroke_ratio * (depth - depth.min())

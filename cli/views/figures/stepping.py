@@ -144,21 +144,14 @@ def cycloidal(command: str, design: CycloidalReducer) -> Figure:
     table, disc = design.table("pins"), design.disc
     u = np.linspace(0.0, 360.0, 721)
     lever = np.abs(disc.lever(np.radians(u)))
-    _pins(
-        levers,
-        "Lever arms of the pins about the centre of the disc",
-        "lever [mm]",
-        u,
-        lever,
-        table["angle"],
-        table["lever"],
-    )
+    at, title = table["angle"], "Lever arms of the pins about the centre of the disc"
+    _pins(levers, title, "lever [mm]", u, lever, at, table["lever"])
     if "force" in table.columns:
         title = "Forces of the ring pins on the most loaded disc"
-        _pins(forces, title, "force [N]", u, None, table["angle"], table["force"])
+        _pins(forces, title, "force [N]", u, None, at, table["force"])
     else:
         gaps = 1000.0 * disc.gap(np.radians(u), *design.changes)
-        _pins(forces, "Gaps at the pins", "gap [µm]", u, gaps, table["angle"], 1000.0 * table["gap"])
+        _pins(forces, "Gaps at the pins", "gap [µm]", u, gaps, at, 1000.0 * table["gap"])
     title = "Curvature of the pitch curve, and that of a pin"
     panels.turn_panel(axes, "curvature [1/mm]", "angle from the eccentricity to the pin [deg]", title)
     axes.plot(u, disc.curvature(np.radians(u)), color=style.GREEN, linewidth=1.5)

@@ -42,13 +42,16 @@ def draw(_command: str, design: Design) -> Figure:
     across = max(1, count - 1)
     made = panels.page(f"{study.spec.name}: {study.kept} kept designs", 0.25 * across + 0.31)
     grid = made.add_gridspec(across + 1, across, height_ratios=[1.0] * across + [1.25])
-    figures = _figures(study)
-    grey = _feasible(study)
+    figures = np.array([row.figures[:count] for row in study.found.rows], dtype=float)
+    most = _FEASIBLE_SCALAR if study.problem.axis is None else _FEASIBLE
+    grey = study.found.sample(most)[:, :count]  # a share of all designs that satisfy everything
     for i, j in pairs or [(0, 0)]:
         axes = made.add_subplot(grid[max(0, i - 1), j])
         _scatter(axes, study, figures, grey, (j, i))
     if count > 2:
-        _key(made.add_subplot(grid[0, across - 1]), study)
+        corner = made.add_subplot(grid[0, across - 1])  # empty in the matrix
+        corner.axis("off")
+        corner.legend(handles=_marks(study), loc="center", **_LEGEND)
     elif count == 2:
         axes.legend(handles=_marks(study), loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, **_LEGEND)
     _parallel(made.add_subplot(grid[across, :]), study, figures)
@@ -79,18 +82,6 @@ def _empty(study: Exploration) -> Figure:
     return made
 
 
-def _figures(study: Exploration) -> Any:
-    """Objectives of the kept designs, a row a design."""
-    count = len(study.problem.objectives)
-    return np.array([row.figures[:count] for row in study.found.rows], dtype=float).reshape(-1, count)
-
-
-def _feasible(study: Exploration) -> Any:
-    """Objectives of a share of all designs that satisfy everything."""
-    most = _FEASIBLE_SCALAR if study.problem.axis is None else _FEASIBLE
-    return study.found.sample(most)[:, : len(study.problem.objectives)]
-
-
 def _label(study: Exploration, i: int) -> str:
     requirement = study.problem.objectives[i]
     return f"{requirement.name.replace('_', ' ')}{'' if requirement.unit == '1' else f' [{requirement.unit}]'}"
@@ -114,22 +105,15 @@ def _scatter(axes: Axes, study: Exploration, figures: Any, grey: Any, places: tu
             axes.plot([place], [figure[y]], "o", **_RING, gid="knee")
 
 
-def _key(axes: Axes, study: Exploration) -> None:
-    """What the marks mean, in the empty corner of the matrix."""
-    axes.axis("off")
-    axes.legend(handles=_marks(study), loc="center", **_LEGEND)
-
-
 def _marks(study: Exploration) -> list[Line2D]:
     """A mark of each kind with its words."""
     from matplotlib.lines import Line2D
 
     of_all: Any = {"linestyle": "none"}
+    kept = "kept: one design per box of the front"
     found = [
         Line2D([], [], marker=".", color=_GREY, markersize=5, label="satisfies everything", **of_all),
-        Line2D(
-            [], [], marker="o", color=style.BLUE, markersize=4, label="kept: one design per box of the front", **of_all
-        ),
+        Line2D([], [], marker="o", color=style.BLUE, markersize=4, label=kept, **of_all),
     ]
     if study.knee is not None:
         found.append(Line2D([], [], marker="o", **_RING, label=f"knee, design {study.knee}", **of_all))
@@ -146,9 +130,9 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
     for place, row in enumerate(rows):
         heights = [_height(c[place], r, s) for c, r, s in zip(columns, ranges, signs, strict=True)]
         share = place / max(1, len(rows) - 1)
-        look: Any = (
-            {"color": style.RED, "linewidth": 2.0, "zorder": 3} if row.index == study.knee else {"color": shades(share)}
-        )
+        look: Any = {"color": shades(share)}
+        if row.index == study.knee:
+            look = {"color": style.RED, "linewidth": 2.0, "zorder": 3}
         axes.plot(range(len(heights)), heights, gid=f"row-{row.index}-line", **look)
         if len(rows) <= _NAMED:
             where: Any = {"textcoords": "offset points", "va": "center", "fontsize": 7, "gid": f"row-{row.index}-name"}
@@ -162,10 +146,8 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
     axes.tick_params(axis="x", pad=14, length=0)
     axes.set(ylim=(-0.12, 1.14), yticks=[])
     numbers = ", with their numbers" if len(rows) <= _NAMED else ""
-    words = (
-        f"kept designs{numbers}: variables as searched, objectives (better is up); dark: best in the first objective"
-    )
-    axes.set_title(words, fontsize=8)
+    more = "variables as searched, objectives (better is up); dark: best in the first objective"
+    axes.set_title(f"kept designs{numbers}: {more}", fontsize=8)
     for spine in axes.spines.values():
         spine.set_visible(False)
 

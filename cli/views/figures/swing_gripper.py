@@ -83,18 +83,10 @@ def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
     way = (meeting - center) / abs(meeting - center)
     turn = -spec.swing_sense * (TURN * fraction - math.radians(design.motion.handover))
     pad = radius * way * np.array([0.86, 1.0])
-    shared = {"place": track(center, fraction), "turn": turn, "color": style.GREY}
-    return [
-        Body(
-            outline=circle(radius, 144),
-            repeats=0,
-            fill=pale(style.GREY, 0.1),
-            label="cylinder",
-            name=f"feed drum, radius {radius:g} mm",
-            **shared,  # type: ignore[arg-type]
-        ),
-        Body(outline=pad, width=5.0, **{**shared, "color": style.RED}),  # type: ignore[arg-type]
-    ]
+    shared: Any = {"place": track(center, fraction), "turn": turn}
+    look: Any = {"color": style.GREY, "fill": pale(style.GREY, 0.1), "repeats": 0, "label": "cylinder"}
+    drum = Body(outline=circle(radius, 144), name=f"feed drum, radius {radius:g} mm", **look, **shared)
+    return [drum, Body(outline=pad, width=5.0, color=style.RED, **shared)]
 
 
 def _cam_bodies(design: SwingGripper, here: Positions) -> list[Part]:
@@ -106,9 +98,8 @@ def _cam_bodies(design: SwingGripper, here: Positions) -> list[Part]:
     rollers = [(spec.roller, spec.roller.angle)]
     if spec.return_roller is not None:
         rollers.append((spec.return_roller, spec.roller.angle + spec.return_roller.angle))
-    parts: list[Part] = []
-    for cam, color in zip(design.cams.discs, panels.CAM_COLORS, strict=False):
-        parts.append(disc_cam(cam, axis, spec.sense * turned, color))
+    cams = zip(design.cams.discs, panels.CAM_COLORS, strict=False)
+    parts: list[Part] = [disc_cam(cam, axis, spec.sense * turned, color) for cam, color in cams]
     for (roller, angle), color in zip(rollers, panels.CAM_COLORS, strict=False):
         center = here.at("input", cmath.rect(roller.arm, math.radians(angle)))
         parts.append(Chain(joints=(pivot, center), color=style.BLUE, marked=False))
@@ -145,16 +136,8 @@ def _stop(design: SwingGripper, fraction: Reals) -> list[Part]:
     size = _STOP_SIZE * spec.arm.length
     corners = np.array([-0.5, 0.5, 0.5 - 1j * spec.swing_sense, -0.5 - 1j * spec.swing_sense, -0.5])
     place = track(complex(design.linkage.output_pivot) + section.radius * along, fraction)
-    return [
-        Body(
-            outline=size * along * corners,
-            place=place,
-            turn=np.zeros_like(fraction),
-            color=style.BLACK,
-            fill=pale(style.GREY, 0.6),
-            name="stop",
-        )
-    ]
+    look: Any = {"color": style.BLACK, "fill": pale(style.GREY, 0.6), "name": "stop"}
+    return [Body(outline=size * along * corners, place=place, turn=np.zeros_like(fraction), **look)]
 
 
 _STOP_SIZE = 0.06
@@ -215,7 +198,8 @@ def _law(axes: list[Axes], design: SwingGripper) -> None:
 
 def _torques(axes: Axes, design: SwingGripper) -> None:
     """Contact torques of both rollers: spring and inertia; what is left above zero keeps them on their cams."""
-    column = design.table("forces", samples=_ROWS)
+    column, spring = design.table("forces", samples=_ROWS), design.spec.spring
+    assert spring is not None, "drawn only where the file has a spring"
     panels.turn_panel(axes, "torque [N m]")
     axes.plot(column["theta"], column["inertia_torque"], color=style.GREEN, linewidth=1.2, label="inertia")
     for name, color, line in zip(("main", "return"), panels.CAM_COLORS, panels.CAM_LINES, strict=True):
@@ -226,10 +210,7 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
         words = f"{name} roller, ≥ {style.number(values[least], 4)} N m"
         axes.plot(column["theta"], values, color=color, linewidth=1.6, linestyle=line, label=words)
         axes.plot([column["theta"][least]], [values[least]], "o", color=color, markersize=4.5)
-        lost = values < (0.0 if design.spec.spring is None else design.spec.spring.reserve)
-        failing.past(axes, column["theta"], values, lost, "lifts off")
-    spring = design.spec.spring
-    assert spring is not None, "drawn only where the file has a spring"
+        failing.past(axes, column["theta"], values, values < spring.reserve, "lifts off")
     closing = design.closing_torque
     axes.axhline(closing, color=style.BLACK, linewidth=0.9, linestyle="--", label=f"spring {closing:.5g} N m")
     least_label = f"minimum required {spring.reserve:g} N m"
@@ -282,12 +263,12 @@ def _draw_cams(command: str, design: SwingGripper) -> Figure:
     below: Any = rows[3].subgridspec(1, 2, width_ratios=(3.0, 1.0 if design.spec.fingers is None else 1.3))
     drawing = made.add_subplot(below[0])
     _cams(drawing, design)
-    if design.spec.fingers is None:
-        panels.legend_beside(made.add_subplot(below[1]), drawing)
-        return made
-    beside: Any = below[1].subgridspec(2, 1)
-    _fingers(made.add_subplot(beside[0]), design)
-    panels.legend_beside(made.add_subplot(beside[1]), drawing)
+    legend: Any = below[1]
+    if design.spec.fingers is not None:
+        beside: Any = below[1].subgridspec(2, 1)
+        _fingers(made.add_subplot(beside[0]), design)
+        legend = beside[1]
+    panels.legend_beside(made.add_subplot(legend), drawing)
     return made
 
 

@@ -38,7 +38,7 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
                 design.outer_rim("idler_output")),
     )  # fmt: skip
     crank, idler, output = train(here, list(design.meshes.values()), gears)
-    path = fixed_circle(0j, design.linkage.crank, "path of the crank pin B")
+    path = fixed_circle(design.linkage.crank, "path of the crank pin B")
     now, rate = OUTPUT.rates(design.moving, here.inputs, 1)
     return here.scene(
         (*output, *(crank if ring else ()), *idler, *(() if ring else crank), path, here.chain),
@@ -138,9 +138,8 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     else:
         axes.axvline(dwell.start, color=style.GREY, linewidth=0.8, linestyle=style.DASHED)
         axes.plot([dwell.start], [0.0], "o", color=style.RED, markersize=4.5)
-        axes.annotate(
-            f"{dwell.start % linkage.TURN:.5g}°", (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8
-        )
+        words = f"{dwell.start % linkage.TURN:.5g}°"
+        axes.annotate(words, (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8)
     axes.set_xlim(low, high)
 
 
@@ -165,15 +164,9 @@ def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> No
     marks = ((1, 0.0, 0.0, "center", lift), (2, width, -back, "center", -lift), (3, dwell.width, 0.0, "right", lift))
     for number, after, level, side, lift in marks:
         axes.plot([dwell.start + after], [level], "o", color=style.RED, markersize=4.5, zorder=5)
-        axes.annotate(
-            f"{number}: {(dwell.start + after) % linkage.TURN:.5g}°",
-            (dwell.start + after, level),
-            (0 if side == "center" else -3, lift),
-            textcoords="offset points",
-            ha=side,
-            va="bottom" if lift > 0 else "top",
-            fontsize=7.5,
-        )
+        words, shift = f"{number}: {(dwell.start + after) % linkage.TURN:.5g}°", (0 if side == "center" else -3, lift)
+        look: Any = {"ha": side, "va": "bottom" if lift > 0 else "top", "fontsize": 7.5}
+        axes.annotate(words, (dwell.start + after, level), shift, textcoords="offset points", **look)
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, -2.2 * back, 0.9 * back), max(high, -2.2 * back, 0.9 * back))
 
@@ -187,15 +180,9 @@ def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: floa
     shift = design.output.angle(start) - design.output.angle(found.start)
     middle = math.degrees(found.output_angle + shift - at_start)
     band = math.degrees(design.output_tolerance)
-    axes.fill_between(
-        [window.start, window.start + window.width],
-        middle - band,
-        middle + band,
-        color=style.GREEN,
-        alpha=0.25,
-        linewidth=0,
-        label=f"within ±{band:g}° over {window.width:.5g}°",
-    )
+    look: Any = {"color": style.GREEN, "alpha": 0.25, "linewidth": 0}
+    x, words = [window.start, window.start + window.width], f"within ±{band:g}° over {window.width:.5g}°"
+    axes.fill_between(x, middle - band, middle + band, **look, label=words)
     panels.legend_above(axes, 1)
 
 
@@ -261,9 +248,8 @@ def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(angle) % 360.0:.5g}°")
     scene = scene_axes.turned(axes, design, build, angle / TURN, 0.0)
     if abs(math.remainder(angle, TURN)) > math.radians(1.0):
-        scene_axes.lightly(
-            axes, scene, 1, name="crank along the frame" if design.gear_gap is None else "gears 1 and 5 closest"
-        )
+        name = "crank along the frame" if design.gear_gap is None else "gears 1 and 5 closest"
+        scene_axes.lightly(axes, scene, 1, name=name)
     if design.gear_gap is not None and design.gear_gap < 0.0:
         _collision(axes, design)
     _shafts(axes, design)
@@ -305,14 +291,10 @@ def _shafts(axes: Axes, design: ThreeGearFourBar) -> None:
 def words(design: ThreeGearFourBar) -> dict[str, str]:
     """The quantities beside the drawing, in short words."""
     links = {name: text for name, text in _LINKS.items() if name != "gear_gap" or design.gear_gap is not None}
-    return {**links, **(_STEADY if design.back_step is None else _BACK_STEP), **_three_gear_mechanism_window(design)}
-
-
-def _three_gear_mechanism_window(design: ThreeGearFourBar) -> dict[str, str]:
-    """The dwell within a tolerance, where the file asks for one."""
-    request = design.spec.dwell
+    request = design.spec.dwell  # within a tolerance, where the file asks for one
     asked = design.spec.dwell_tolerance is not None or (request is not None and request.angle is None)
-    return _WITHIN if asked and design.tolerance_dwell is not None else {}
+    within = _WITHIN if asked and design.tolerance_dwell is not None else {}
+    return {**links, **(_STEADY if design.back_step is None else _BACK_STEP), **within}
 
 
 _MOST = 2

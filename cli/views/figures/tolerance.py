@@ -70,11 +70,8 @@ def _course(axes: Axes, course: Course) -> None:
     """Percentiles of an output over the cycle, about that of the nominal design."""
     places, (low, five, middle, most, high) = _closed(course)
     over, unit = course.units
-    panels.curves(
-        axes,
-        f"{course.over.replace('_', ' ')} [{over}]",
-        "deviation from nominal" + ("" if unit == "1" else f" [{unit}]"),
-    )
+    label = "deviation from nominal" + ("" if unit == "1" else f" [{unit}]")
+    panels.curves(axes, f"{course.over.replace('_', ' ')} [{over}]", label)
     far = bool((low == low).any())
     if far:
         axes.fill_between(places, low, high, color=style.SKY, alpha=0.35, linewidth=0, label="99.73 %")
@@ -83,9 +80,8 @@ def _course(axes: Axes, course: Course) -> None:
     for line in (low, high) if far else (five, most):
         axes.plot(places, line, color=style.BLUE, linewidth=0.6)
     if course.reference is not None:
-        axes.axvline(
-            course.reference, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="the dwell begins"
-        )
+        look: dict[str, Any] = {"color": style.GREY, "linewidth": 1.0, "linestyle": style.DOTTED}
+        axes.axvline(course.reference, **look, label="the dwell begins")
     axes.set_xlim(places[0], places[-1])
     if over == "deg" and course.period == 360.0:
         style.full_turn(axes)
@@ -127,14 +123,8 @@ def _beyond(axes: Axes, lower: float | None, upper: float | None) -> None:
     words: str | None = "rejected"
     for start, end in ((left, lower), (upper, right)):
         if start is not None and end is not None and start < end:
-            look: dict[str, Any] = {
-                "color": style.WRONG,
-                "alpha": 0.13,
-                "linewidth": 0,
-                "label": words,
-                "gid": "beyond",
-            }
-            axes.axvspan(max(start, left), min(end, right), **look)
+            look: dict[str, Any] = {"color": style.WRONG, "alpha": 0.13, "linewidth": 0, "gid": "beyond"}
+            axes.axvspan(max(start, left), min(end, right), **look, label=words)
             words = None
     axes.set_xlim(left, right)
 
@@ -164,8 +154,8 @@ def _headline(study: ToleranceStudy, name: str) -> str:
 def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     """Shares of the variance: total Sobol' indices where they were asked for, else by the slopes."""
     table = study.table_contributions()
-    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
-    rows = [row for row in rows if row["quantity"] == name]
+    every = (dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True))
+    rows = [row for row in every if row["quantity"] == name]
     kind = "total" if rows[0]["total"] is not None else "linear"
     shares: list[tuple[str, Any, Any]] = [(row["source"], row[kind], row["total_pm"]) for row in rows]
     what = "total Sobol' index" if kind == "total" else "share of the variance"

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
-from gearlink.cli.views.figures.drawing.panels import powers_of_ten
 from gearlink.cli.views.scenes.of_motion import Frame, Positions
 from gearlink.cli.views.scenes.scene import (
     TURN,
@@ -61,16 +60,14 @@ def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
         return [(working, design.cam, 1.0), ("Cam of the return stroke (mirror image)", design.cam, -1.0)]
     if design.spec.layout != "twin-rocker":
         return [(working, design.cam, 1.0), ("Cam of the return stroke", design.return_cam, -1.0)]
-    return [
-        ("Internal profile, working stroke", design.cam, 1.0),
-        ("External profile, return stroke", design.return_cam, 1.0),
-    ]
+    external = "External profile, return stroke", design.return_cam, 1.0
+    return [("Internal profile, working stroke", design.cam, 1.0), external]
 
 
-def kind_words(design: WideSwingDesign) -> str:
-    """Which of the mechanisms it is, and its swing, for the title."""
+def _title(command: str, design: WideSwingDesign) -> str:
+    """Which of the mechanisms it is, and its swing."""
     layout = design.spec.layout if design.spec.drive is None else "oscillating cam"
-    return f"{layout}, {design.spec.swing:g}° swing"
+    return f"{design.spec.name}: {command} ({layout}, {design.spec.swing:g}° swing)"
 
 
 def has_slots(design: WideSwingDesign) -> bool:
@@ -83,11 +80,12 @@ def has_slots(design: WideSwingDesign) -> bool:
     return True
 
 
-def zone_words(axes: Axes, cam: AnyCam) -> None:
-    """How much of the stroke the change of sides takes, in the corner of a drawing."""
+def _whole_cam(axes: Axes, design: WideSwingDesign, title: str, cam: AnyCam, mirror: float) -> None:
+    """A cam, and in the corner how much of the stroke the change of flanks takes."""
+    cam_panel(axes, design, title, cam, mirror)
     words = f"changes flank within ±{100.0 * cam.transition_zone:.3g} % of the stroke"
-    axes.text(0.5, 0.02, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=7.5, zorder=8,
-              path_effects=style.outlined())  # fmt: skip
+    look: dict[str, Any] = {"ha": "center", "va": "bottom", "fontsize": 7.5, "zorder": 8}
+    axes.text(0.5, 0.02, words, transform=axes.transAxes, path_effects=style.outlined(), **look)
 
 
 def cam_panel(axes: Axes, design: WideSwingDesign, title: str, cam: AnyCam, mirror: float) -> None:
@@ -124,14 +122,8 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
     axes.plot(*_xy(rest, mirror), color=style.BLUE, linewidth=0.8, zorder=2)
     for part, label in ((run_up, "profile"), (run_out, None)):
         axes.plot(*_xy(part, mirror), color=style.BLUE, linewidth=1.8, zorder=3, label=label)
-    axes.plot(
-        *_xy(bottom, mirror),
-        color=style.ORANGE,
-        linewidth=3.4,
-        solid_capstyle="butt",
-        zorder=3,
-        label="slot, in which the roller changes flank",
-    )
+    look: dict[str, Any] = {"color": style.ORANGE, "linewidth": 3.4, "solid_capstyle": "butt", "zorder": 3}
+    axes.plot(*_xy(bottom, mirror), **look, label="slot, in which the roller changes flank")
 
 
 def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
@@ -149,11 +141,9 @@ def _ring(axes: Axes, hollow: Any, radius: float) -> None:
 
 
 def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
-    pitch = cam.points(np.linspace(0.0, 1.0, 601)).pitch
-    axes.plot(
-        *_xy(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=style.DASHED, label="pitch curve", zorder=3
-    )
-    middle = cam.middle
+    pitch, middle = cam.points(np.linspace(0.0, 1.0, 601)).pitch, cam.middle
+    look: dict[str, Any] = {"color": style.BLUE, "linewidth": 1.0, "linestyle": style.DASHED, "zorder": 3}
+    axes.plot(*_xy(pitch, mirror), **look, label="pitch curve")
     zone = min(cam.transition_zone, middle, 1.0 - middle)
     part = cam.points(np.linspace(middle - zone, middle + zone, 101)).pitch
     axes.plot(*_xy(part, mirror), color=style.ORANGE, linewidth=3.0, solid_capstyle="butt", zorder=4)
@@ -208,7 +198,7 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
     stroke_axis(axes, design, "radius [mm]")
     axes.set_yscale("log")
-    powers_of_ten(axes.yaxis)
+    panels.powers_of_ten(axes.yaxis)
     k = np.linspace(0.0, 1.0, 1001)[1:-1]
     k, greatest = k[k != 0.5], 0.0
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
@@ -249,11 +239,9 @@ class Cycle:
     @cached_property
     def turned(self) -> float:
         """Angle that the cam, or the crank, turns in the loop: whole revolutions with room for both strokes [rad]."""
-        return (
-            TURN
-            if self.oscillates or self.whole
-            else TURN * math.ceil(2.0 * self.design.motion.cycle_angle / TURN - 1e-9)
-        )
+        if self.oscillates or self.whole:
+            return TURN
+        return TURN * math.ceil(2.0 * self.design.motion.cycle_angle / TURN - 1e-9)
 
     @cached_property
     def stroke(self) -> Reals:
@@ -321,7 +309,12 @@ def build(design: WideSwingDesign, fraction: Reals) -> Scene:
     marks += [Mark(pins[name], name, pivot=name == "A") for name in "ABCEF" if name in pins]
     drive = "crank" if cycle.oscillates else "cam"
     return Scene(
-        parts=(*_device(cycle), *_cams(cycle), *_slider(cycle)),
+        parts=(
+            Chain(joints=(base, pin), color=style.GREEN, width=6.0),  # the unloading device, shortest at mid-swing
+            Chain(joints=(track(0.0, fraction), pin)),
+            *_cams(cycle),
+            *_slider(cycle),
+        ),
         marks=tuple(marks),
         chart=_chart(cycle, drive),
         readouts=(
@@ -344,7 +337,11 @@ def _cams(cycle: Cycle) -> list[Part]:
             Chain(joints=tuple(cycle.pins[name] for name in "ABCO"), color=style.GREY),
             *_roller(cycle, design.cam.rocker_radius),
         ]
-    other, seat = design.return_cam or design.cam, _second_seat(design)
+    other, seat = design.return_cam or design.cam, 1.0 + 0j
+    if (
+        design.spec.layout == "twin-cam-parallel"
+    ):  # from the rocker's axis to the shaft of the return cam, over the first
+        seat = cmath.rect(1.0, design.shafts.roller_arm_angle)
     back = _cam(cycle, other, cycle.cam_turn(back=True), style.RED, mirrored=True, seat=seat)
     if design.spec.layout != "twin-rocker":
         main = _cam(cycle, design.cam, -cycle.cam_turn(), style.BLUE)
@@ -356,13 +353,6 @@ def _cams(cycle: Cycle) -> list[Part]:
     main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(), style.BLUE)
     rollers = *_roller(cycle, -design.cam.rocker_radius), *_roller(cycle, design.return_cam.rocker_radius)
     return [*back, *main, *rollers]
-
-
-def _second_seat(design: WideSwingDesign) -> complex:
-    """Unit vector from the rocker's axis to the shaft of the return cam, over that to the first shaft."""
-    if design.spec.layout != "twin-cam-parallel":
-        return 1.0 + 0j
-    return cmath.rect(1.0, design.shafts.roller_arm_angle)
 
 
 def _cam(
@@ -407,12 +397,6 @@ def _roller(cycle: Cycle, arm: complex) -> list[Part]:
     ]
 
 
-def _device(cycle: Cycle) -> list[Part]:
-    """The unloading device, shortest at mid-swing, and its arm."""
-    base, pin = _device_pins(cycle)
-    return [Chain(joints=(base, pin), color=style.GREEN, width=6.0), Chain(joints=(track(0.0, cycle.fraction), pin))]
-
-
 def _device_pins(cycle: Cycle) -> tuple[Points, Points]:
     """The pins of the device: on the frame, on the rocker."""
     unloader = cycle.design.spec.unloader
@@ -450,13 +434,12 @@ def draw(command: str, design: WideSwingDesign) -> Figure:
 def draw_motion(command: str, design: WideSwingDesign) -> Figure:
     """Unit diagrams over the stroke, cams to scale where the profile exists, balance over the speed; torques."""
     cams, moves = design.spec.cam is not None and has_slots(design), design.spec.cam is None
-    title = f"{design.spec.name}: {command} ({kind_words(design)})"
     heights = [1.0, 1.75, 1.0] if cams else [1.0, 1.0 + 1.4 * moves]
     share = 0.95 if cams or moves else 0.62
     if design.spec.shaft is not None:
         share *= 1.0 + 1.0 / sum(heights)
         heights = [*heights[:1], *(min(height, 1.4) for height in heights[1:]), 1.0]
-    made = panels.page(title, share)
+    made = panels.page(_title(command, design), share)
     grid = made.add_gridspec(len(heights), 1, height_ratios=heights)
     _law_panels(made, grid[0], design)
     if design.spec.shaft is not None:
@@ -480,11 +463,8 @@ def _history_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     """Torques of both shafts over the stroke and the rest after it, and the dynamic coefficient over the speed."""
     history, balance = design.table("history"), design.table("balance")
     columns = place.subgridspec(1, 3)
-    curves = (
-        ("", style.RED, "rigid, without device"),
-        ("_balanced", style.BLUE, "rigid, with device"),
-        ("_elastic", style.GREEN, "elastic, with device"),
-    )
+    curves = [("", style.RED, "rigid, without device"), ("_balanced", style.BLUE, "rigid, with device")]
+    curves.append(("_elastic", style.GREEN, "elastic, with device"))
     for i, (shaft, words) in enumerate((("rocker", "Rocker shaft"), ("drive", "Main shaft"))):
         axes = made.add_subplot(columns[0, i])
         panels.curves(axes, "time [ms]", "torque [N m]")
@@ -565,8 +545,7 @@ def _cam_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     rows = place.subgridspec(2, len(drawn), height_ratios=[1.0, 0.09])
     for i, (title, cam, mirror) in enumerate(drawn):
         axes = made.add_subplot(rows[0, i])
-        cam_panel(axes, design, title, cam, mirror)
-        zone_words(axes, cam)
+        _whole_cam(axes, design, title, cam, mirror)
     panels.legend_beside(made.add_subplot(rows[1, :]), axes, **_ROW)
 
 
@@ -582,18 +561,11 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     panels.curves(axes, "speed [1/min]", "torque peak [N m]")
     axes.plot(speed, without, color=style.RED, linewidth=1.6, label="without device")
     axes.plot(speed, with_device, color=style.BLUE, linewidth=1.6, label="with device", gid="with-device")
-    usual = design.spec.speed / math.sqrt(2.0)
     axes.axvspan(0.0, design.unloading.harmful_speed, color=style.LIGHT, alpha=0.45, linewidth=0, zorder=0)
-    axes.axvline(usual, color=style.GREY, linewidth=0.9, linestyle=style.DASHED)
-    axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=style.DASHED)
-    for place, words in ((usual, "n₀/√2"), (design.spec.speed, "n₀")):
-        where: dict[str, Any] = {
-            "xycoords": ("data", "axes fraction"),
-            "textcoords": "offset points",
-            "ha": "right",
-            "va": "top",
-        }
-        axes.annotate(words, (place, 1.0), (-3, -2), fontsize=8.5, **where)
+    for place, words in ((design.spec.speed / math.sqrt(2.0), "n₀/√2"), (design.spec.speed, "n₀")):
+        axes.axvline(place, color=style.GREY, linewidth=0.9, linestyle=style.DASHED)
+        where: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+        axes.annotate(words, (place, 1.0), (-3, -2), fontsize=8.5, ha="right", va="top", **where)
     axes.set_xlim(0.0, float(speed[-1]))
     axes.set_ylim(bottom=0.0)
     lowest = design.spec.operating_speed_min
@@ -610,9 +582,8 @@ def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
     stroke_axis(axes, design, "invariants of the slider")
     for column, color in (("displacement", style.GREEN), ("velocity", style.BLUE), ("acceleration", style.RED)):
         axes.plot(table.data[0], table[column], color=color, linewidth=1.6, label=column)
-    axes.axvline(
-        design.motion.slider.middle_place, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label="mid-swing"
-    )
+    middle = design.motion.slider.middle_place
+    axes.axvline(middle, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label="mid-swing")
     panels.legend_under_heading(axes, "Slider", 2)
 
 
@@ -634,21 +605,18 @@ def draw_cams(command: str, design: WideSwingDesign) -> Figure:
         NoSolution - for a profile that does not exist
     """
     whole = design.spec.cycle is not None
-    title = f"{design.spec.name}: {command} ({kind_words(design)})"
-    made = panels.page(title, 1.6 if whole else 1.0)
+    made = panels.page(_title(command, design), 1.6 if whole else 1.0)
     drawn = cams_of(design)
     rows = made.add_gridspec(3, 1, height_ratios=[2.3, 0.9, 4.2]) if whole else None
     if rows is not None:
         contours_panel(made, rows[0], design)
         cycle_panel(made.add_subplot(rows[1]), design)
-    heights = [1.75, 1.2, 0.2, 1.05]
     place = made.add_gridspec(1, 1)[0] if rows is None else rows[2]
-    grid = place.subgridspec(4, 1, height_ratios=heights)
+    grid = place.subgridspec(4, 1, height_ratios=[1.75, 1.2, 0.2, 1.05])
     large, close, below = (grid[i].subgridspec(1, n) for i, n in ((0, len(drawn)), (1, len(drawn)), (3, 2)))
     for i, (title, cam, mirror) in enumerate(drawn):
         axes = made.add_subplot(large[0, i])
-        cam_panel(axes, design, title, cam, mirror)
-        zone_words(axes, cam)
+        _whole_cam(axes, design, title, cam, mirror)
         _slot_panel(made.add_subplot(close[0, i]), design, cam, mirror)
     panels.legend_beside(made.add_subplot(grid[2]), axes, **_ROW)
     pressure_panel(made.add_subplot(below[0, 0]), design)
@@ -686,14 +654,10 @@ def contours_panel(made: Figure, place: Any, design: WideSwingDesign) -> None:
         panels.legend_beside(made.add_subplot(columns[0, 1]), axes, **_BESIDE)
         return
     columns = place.subgridspec(2, 2, height_ratios=[1.0, 0.08])
-    for i, (title, cam, frame) in enumerate(
-        (
-            ("Cam of the working stroke", cycle.main, cycle.of_main),
-            ("Cam of the return stroke", cycle.back, cycle.of_back),
-        )
-    ):
+    both = ("working", cycle.main, cycle.of_main), ("return", cycle.back, cycle.of_back)
+    for i, (stroke, cam, frame) in enumerate(both):
         axes = made.add_subplot(columns[0, i])
-        panels.drawing(axes, title)
+        panels.drawing(axes, f"Cam of the {stroke} stroke")
         _contour(axes, cam, frame, (style.BLUE, style.GREEN)[i])
         style.area(axes, _whole(cam, frame), color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
         _shaft(axes, design)

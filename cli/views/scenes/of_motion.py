@@ -138,10 +138,8 @@ class Positions:
             for name, each in seen.items()
         )
         if values is None:
-            values = {
-                curve.label: ("°" if each.unit == "deg" else f" {each.unit}", curve.now)
-                for curve, each in zip(curves, seen.values(), strict=True)
-            }
+            units = ("°" if each.unit == "deg" else f" {each.unit}" for each in seen.values())
+            values = {curve.label: (each, curve.now) for curve, each in zip(curves, units, strict=True)}
         chart = Chart(f"{words} [{unit}]", ylabel, degree(whole), degree(self.inputs), curves, marked)
         told = {words.split()[0]: (sign, degree(self.inputs)), **values}
         return Scene(
@@ -241,8 +239,8 @@ def _cams(mechanism: Mechanism) -> list[Part]:
 
 def _size(mechanism: Mechanism) -> float:
     """Of all that stands at the first position [mm]."""
-    places = np.array([each.at[0] for each in _pins(mechanism)] + [link.origin.value[0] for link in
-                                                                     mechanism.links.values()])  # fmt: skip
+    origins = [link.origin.value[0] for link in mechanism.links.values()]
+    places = np.array([each.at[0] for each in _pins(mechanism)] + origins)
     return float(max(np.ptp(places.real), np.ptp(places.imag), 1e-9))
 
 

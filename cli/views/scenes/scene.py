@@ -265,9 +265,9 @@ def circle(radius: float, count: int = 72) -> Points:
     return np.asarray(radius * np.exp(1j * TURN * np.arange(count + 1) / count))
 
 
-def fixed_circle(center: complex, radius: float, name: str = "") -> Line:
-    """A dashed circle that stands still."""
-    return Line(points=center + circle(radius, 120), dashed=True, name=name)
+def fixed_circle(radius: float, name: str = "") -> Line:
+    """A dashed circle about the origin that stands still."""
+    return Line(points=circle(radius, 120), dashed=True, name=name)
 
 
 def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...]:

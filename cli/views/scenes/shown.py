@@ -44,6 +44,7 @@ from gearlink.cli.views.scenes.scene import (
     drawn,
     points_of,
     round_below,
+    wheel,
 )
 from gearlink.core.base.errors import GearlinkError, NoSolution, named
 from gearlink.core.base.kinds import KINDS
@@ -368,18 +369,14 @@ class Picture:
         """
         if wish.what in ("velocity", "acceleration"):
             return self._vectors(wish)
-        made: dict[str, Callable[[Wish], Found]] = {
-            "force": self._forces, "path": self._path, "centres": self._centres, "ghosts": self._ghosts,
-        }  # fmt: skip
-        return made[wish.what](wish)
+        if wish.what in ("force", "path"):
+            return self._forces(wish) if wish.what == "force" else self._path(wish)
+        return self._centres() if wish.what == "centres" else self._ghosts()
 
     def _mechanism(self, order: int, fraction: Reals | None = None) -> Mechanism:
         """The links there; beyond the range of the motion at its end."""
-        given, q = self.frame.motion.input, self.frame.inputs(self.fraction if fraction is None else fraction)
-        if given.turns is None:
-            q = np.minimum(np.maximum(q, given.start), given.end)
-        found: Mechanism = self.frame.motion.at(np.asarray(q), order)
-        return found
+        q = self.frame.inputs(self.fraction if fraction is None else fraction)
+        return self.frame.motion.at(_clipped(self.frame.motion.input, q), order)
 
     def _known(self, track: Points) -> Points:
         """A track of the motion in the scene, which is not there beyond the range of the motion."""
@@ -418,10 +415,8 @@ class Picture:
         factor = 1.0 if speed is None else speed**order
         places = self._places(wish.point)
         now, whole = self._mechanism(order), self._mechanism(order, self._whole)
-        most = max(
-            (float(np.abs(vectors.rates_of(whole, each).derivative(order)).max()) for each in places.values()),
-            default=0.0,
-        )
+        sizes = (float(np.abs(vectors.rates_of(whole, each).derivative(order)).max()) for each in places.values())
+        most = max(sizes, default=0.0)
         tracks = {}
         for name, each in places.items():
             rates = vectors.rates_of(now, each)
@@ -450,10 +445,7 @@ class Picture:
 
     def _loaded(self, machine: Any, fraction: Reals) -> Reals:
         """Inputs of the loads, which may run over another period than the motion."""
-        given, q = machine.motion.input, self.frame.inputs(fraction)
-        if given.turns is None:
-            return np.asarray(np.minimum(np.maximum(q, given.start), given.end))
-        return np.asarray(q)
+        return _clipped(machine.motion.input, self.frame.inputs(fraction))
 
     def _path(self, wish: Wish) -> Found:
         """The path of a point, with a tick every 30 deg of a turning input, numbers at every 90, and its direction."""
@@ -494,18 +486,16 @@ class Picture:
         head = path[k] + 0.018 * self.size * way * np.array([1.0, -1.0 + 0.6j, -1.0 - 0.6j, 1.0])
         return Line(points=head, color=BLACK, width=1.4)
 
-    def _centres(self, _wish: Wish) -> Found:
+    def _centres(self) -> Found:
         """Instant centres against the frame of the links that no pin of the frame holds, with rays to two joints."""
         now = self._mechanism(1)
         held = {name for each in now.connections if isinstance(each, Pin) and FRAME in (each.first, each.second)
                 for name in (each.first, each.second)}  # fmt: skip
-        parts: list[Part] = []
-        marks: list[Mark] = []
-        keys: list[Key] = []
+        parts, marks, keys = list[Part](), list[Mark](), list[Key]()
+        middle, half = self.box
         for name, link in now.links.items():
             pole = self._known(vectors.centre(now, name))
             turning = np.abs(link.turn.first) > 1e-9
-            middle, half = self.box
             off = pole - middle
             far = ~((np.abs(off.real) < _FAR * half.real) & (np.abs(off.imag) < _FAR * half.imag)) | ~turning
             if name in held or not turning.any():
@@ -518,9 +508,8 @@ class Picture:
                 continue
             ends = [each.at for each in now.connections if isinstance(each, Pin) and name in (each.first, each.second)]
             parts += [Chain(joints=(pole, self.frame.at(end)), color=GREY, width=0.8, marked=False) for end in ends[:2]]
-            dot = Body(outline=circle(0.009 * self.size), place=pole, turn=np.zeros(pole.shape), color=RED, fill=RED,
-                       repeats=0)  # fmt: skip
-            parts.append(dot)
+            level = np.zeros(pole.shape)
+            parts.append(wheel(pole, 0.009 * self.size, level, color=RED, fill=RED))
             marks.append(Mark(pole, f"P {name}"))
         return parts, marks, [Key("P: instant centre against the frame", RED, 0.0), *keys] if parts else []
 
@@ -535,7 +524,7 @@ class Picture:
         arrow = Arrow(start=np.where(away, edge - way, _OFF), vector=way, color=RED)
         return arrow, Mark(np.where(away, edge - 2.0 * way, _OFF), f"P {name}"), keys
 
-    def _ghosts(self, _wish: Wish) -> Found:
+    def _ghosts(self) -> Found:
         """Earlier positions, the paler the older."""
         parts: list[Part] = []
         given = self.frame.motion.input
@@ -552,6 +541,11 @@ class Picture:
         if given.turns is not None and given.unit == "rad":
             words += f", {math.degrees(given.end - given.start) * step:.4g}° apart"
         return parts, [], [Key(words, _grey(1), 0.0)] if parts else []
+
+
+def _clipped(given: Input, q: Reals) -> Reals:
+    """Inputs, those beyond a range at its end."""
+    return np.asarray(q if given.turns is not None else np.minimum(np.maximum(q, given.start), given.end))
 
 
 def _grey(k: int) -> str:
@@ -669,14 +663,9 @@ class _Failing:
         if angle is None:
             return
         mask = angle < self.design.spec.limits.transmission_angle
-        yield (
-            mask,
-            [
-                replace(part, joints=tuple(np.where(mask, joint, _OFF) for joint in part.joints), color=WRONG)
-                for part in self.scene.parts
-                if isinstance(part, Chain) and part.marked
-            ],
-        )
+        links = [part for part in self.scene.parts if isinstance(part, Chain) and part.marked]
+        joints = [tuple(np.where(mask, joint, _OFF) for joint in part.joints) for part in links]
+        yield mask, [replace(part, joints=own, color=WRONG) for part, own in zip(links, joints, strict=True)]
 
     def _least_transmission(self, q: Reals) -> Reals | None:
         """The least transmission angle at inputs [deg], infinite beyond the range of the motion."""
@@ -704,10 +693,10 @@ class _Failing:
 
     def _named_instant(self, check: Check) -> Mask:
         """The position nearest to the place that a finding names; none where it names no input of the motion."""
-        if not has_motion(self.design):
-            return np.zeros(self.fraction.shape, dtype=bool)
-        found, words = _DEGREES.search(check.at), self.design.moving.input.column.replace("_", " ")
-        q = self._inputs if found and (words in check.at or "input angle" in check.at) else None
+        found, q = _DEGREES.search(check.at), None
+        if found and has_motion(self.design):
+            words = self.design.moving.input.column.replace("_", " ")
+            q = self._inputs if words in check.at or "input angle" in check.at else None
         if found is None or q is None:
             return np.zeros(self.fraction.shape, dtype=bool)
         apart = np.abs((np.degrees(q) - float(found[1]) + 180.0) % 360.0 - 180.0)

@@ -6,7 +6,6 @@ Tolerances
 """
 
 import math
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -17,6 +16,7 @@ from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.rexs import as_rexs
+from gearlink.cli.views.scenes.linkages import builder
 from gearlink.cli.views.scenes.scene import Body
 
 MODULE = 2.5
@@ -90,7 +90,7 @@ def depth(points, polygon, inside):
 @pytest.mark.parametrize("name", [name for name in DRAWN if name != "mutilated"])  # its wheel has cut teeth
 def test_drawn_teeth_touch_and_do_not_overlap(name):
     made = design(DRAWN[name])
-    build = import_module(f"gearlink.cli.views.figures.{made.kind.replace('-', '_')}").build
+    build = builder(made.kind)
     fractions = np.array([0.0, 0.137, 0.61])
     bodies = toothed(build(made, fractions))
     for index in range(len(fractions)):
@@ -134,7 +134,7 @@ def test_the_rim_of_the_file_is_drawn_and_exported():
     made = design(DRAWN["ring"])
     circles = {circle.layer: circle.radius for circle in parts.makers(made)["gear5"]().circles}
     assert circles["RIM"] == 90.0
-    scene = import_module("gearlink.cli.views.figures.planet_linkages").build_two_gears(made, np.zeros(1))
+    scene = builder(made.kind)(made, np.zeros(1))
     rims = [part for part in scene.parts if isinstance(part, Body) and part.repeats == 0]
     assert max(abs(rims[0].outline)) == pytest.approx(90.0, rel=1e-12)
     ring = next(gear for gear in made.layout.gears if gear.axis == "A")

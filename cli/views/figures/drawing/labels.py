@@ -181,12 +181,9 @@ def box_of(text: Text, renderer: Any) -> tuple[float, float, float, float]:
 
 def _beside(axes: Axes, renderer: Any) -> Iterator[tuple[float, float, float, float]]:
     """Boxes of titles, legend, and of numbers and words along the axes, those that a panel has besides included."""
-    panels = [
-        axes,
-        *axes.child_axes,
-        *(other for other in axes.figure.axes if other is not axes and _twin(axes, other)),
-    ]
-    for each in panels:
+    place = axes.bbox.extents
+    twins = (other for other in axes.figure.axes if other is not axes and np.allclose(place, other.bbox.extents))
+    for each in (axes, *axes.child_axes, *twins):
         legend = each.get_legend()
         written: Sequence[Any] = (each.title, each._left_title, each._right_title)  # type: ignore[attr-defined]
         yield from (box_of(text, renderer) for text in written if is_seen(text))
@@ -195,10 +192,6 @@ def _beside(axes: Axes, renderer: Any) -> Iterator[tuple[float, float, float, fl
         if each.axison:
             for axis in (each.xaxis, each.yaxis):
                 yield from (box_of(text, renderer) for text in _numbers(axis))
-
-
-def _twin(axes: Axes, other: Axes) -> bool:
-    return bool(np.allclose(axes.bbox.extents, other.bbox.extents))
 
 
 def _numbers(axis: Axis) -> Iterator[Text]:

@@ -24,12 +24,8 @@ DWELL: Any = {"facecolor": "#CFE8F7", "linewidth": 0, "zorder": 0}
 BACKWARD: Any = {"facecolor": "none", "edgecolor": "#F3B562", "hatch": "///", "linewidth": 0, "zorder": 0.5}
 """A dwell is tinted and a back-step hatched, so that both are seen where they overlap."""
 TURN = 360.0
-FOUR_BAR = {
-    "crank_length": "crank AB",
-    "coupler_length": "coupler BC",
-    "rocker_length": "rocker CD",
-    "frame_length": "frame AD",
-}
+_FOUR_BAR = "crank AB", "coupler BC", "rocker CD", "frame AD"
+FOUR_BAR = {f"{words.partition(' ')[0]}_length": words for words in _FOUR_BAR}
 """Links of a four-bar in short words."""
 _MOST_LINES = 12
 _ACROSS = 40.0
@@ -86,11 +82,8 @@ def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) ->
 def _text(value: object, unit: str) -> str:
     if isinstance(value, list):
         return ", ".join(_text(item, unit) for item in value) or "none"
-    return style.number(value, scale=0.0 if unit == "mm" else 1.0) if isinstance(value, float) else _count(value)
-
-
-def _count(value: object) -> str:
-    """A whole number with a true minus sign, or words."""
+    if isinstance(value, float):
+        return style.number(value, scale=0.0 if unit == "mm" else 1.0)
     return str(value).replace("-", "−") if isinstance(value, int) else str(value)
 
 

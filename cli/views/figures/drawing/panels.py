@@ -30,6 +30,7 @@ Box: TypeAlias = tuple[float, float, float, float]
 _PAPERS = ((8.27, 11.69), (11.69, 16.54), (16.54, 23.39), (23.39, 33.11), (33.11, 46.81))
 """A4 to A0, upright [in]."""
 _A4 = _PAPERS[0]
+_DEGREES = 0.5 * np.arange(721)
 _SQUEEZED = 1.25
 """Pages of A4 that still are drawn on one."""
 
@@ -138,12 +139,9 @@ def heading(axes: Axes, title: str) -> None:
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
 
 
-_LONGEST_NAME = 32
-"""Characters beside a bar or in a legend: longer ones leave a panel no width."""
-
-
-def abridged(name: str, most: int = _LONGEST_NAME) -> str:
-    """A name, or the first and the last letters of a long one."""
+def abridged(name: str, most: int = 32) -> str:
+    """A name, or the first and the last letters of a long one, which beside a bar or in a legend would leave a panel
+    no width."""
     half = most // 2
     return name if len(name) <= most else f"{name[: half - 1]}…{name[-half:]}"
 
@@ -202,15 +200,8 @@ def legend_below(axes: Axes, columns: int = 1, *, labelled: bool = False) -> Non
     from matplotlib.transforms import ScaledTranslation
 
     down = ScaledTranslation(0.0, -0.53 if labelled else -0.29, axes.figure.dpi_scale_trans)
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        bbox_transform=axes.transAxes + down,
-        ncols=columns,
-        frameon=False,
-        fontsize=7.5,
-        borderaxespad=0.0,
-    )
+    place: dict[str, Any] = {"bbox_to_anchor": (0.5, 0.0), "bbox_transform": axes.transAxes + down}
+    axes.legend(loc="upper center", ncols=columns, frameon=False, fontsize=7.5, borderaxespad=0.0, **place)
 
 
 def drawing(axes: Axes, title: str) -> None:
@@ -240,17 +231,12 @@ def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str 
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
     left, right = axes.get_xlim()
     words = f"{style.number(value, 5, 1e3 * float(np.ptp(axes.get_ylim())))}{unit} at {degrees:.5g}{at}"
-    share, half = (degrees - left) / (right - left), _half_width(axes, words)
+    across = 72.0 * (_A4[0] - 1.6) * _share_of_page(axes) - _BESIDE
+    share, half = (degrees - left) / (right - left), min(0.5, 0.5 * 0.6 * _NAME_SIZE * len(words) / across)
     side = "right" if share > 1.0 - half else "left" if share < half else "center"
     look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
     shift = ({"left": 3, "center": 0, "right": -3}[side], 5 if above else -5)
     axes.annotate(words, (degrees, value), shift, textcoords="offset points", path_effects=style.outlined(), **look)
-
-
-def _half_width(axes: Axes, words: str) -> float:
-    """Half the width of small words, as a share of the panel's."""
-    across = 72.0 * (_A4[0] - 1.6) * _share_of_page(axes) - _BESIDE
-    return min(0.5, 0.5 * 0.6 * _NAME_SIZE * len(words) / across)
 
 
 def legend_beside(axes: Axes, drawing: Axes, **look: Any) -> None:
@@ -272,8 +258,8 @@ def message(axes: Axes, words: str, size: float = 8) -> None:
 def small_ticks(axes: Axes) -> None:
     """Tick labels and axis labels of a panel among several."""
     axes.tick_params(labelsize=8)
-    axes.xaxis.label.set_fontsize(8.5)
-    axes.yaxis.label.set_fontsize(8.5)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.label.set_fontsize(8.5)
     _few_ticks(axes, 6)
 
 
@@ -309,49 +295,38 @@ def turn_panel(axes: Axes, ylabel: str, xlabel: str = "", title: str = "") -> No
         axes.tick_params(labelbottom=False)
 
 
-def _turn_angles() -> Any:
-    return np.arange(721) * 0.5
-
-
 def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: str) -> None:
     """Pressure angle of each cam over the cam angle, its extreme and the limit [deg]."""
-    degrees = _turn_angles()
     turn_panel(axes, "pressure\nangle [deg]", xlabel, "Pressure angle")
     for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
-        values = np.degrees(cam.pressure_angle(np.radians(degrees)))
+        values = np.degrees(cam.pressure_angle(np.radians(_DEGREES)))
         worst = cam.max_pressure_angle
         place = math.degrees(worst.place)
-        sign = math.copysign(1.0, float(np.interp(place, degrees, values)))
+        sign = math.copysign(1.0, float(np.interp(place, _DEGREES, values)))
         label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {place:.4g}°"
-        axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
-        failing.past(axes, degrees, values, np.abs(values) > limit, "above the limit")
+        axes.plot(_DEGREES, values, color=color, linewidth=1.5, linestyle=line, label=label)
+        failing.past(axes, _DEGREES, values, np.abs(values) > limit, "above the limit")
         axes.plot([place], [sign * math.degrees(worst.value)], "o", color=color, markersize=4.5)
     for sign in (1.0, -1.0):
         named = f"limit ±{limit:g}°" if sign > 0.0 else None
-        axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)), label=named)
+        axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=style.DASHED, label=named)
     _legend_of_cams(axes)
 
 
 def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
     """Curvature of each pitch curve over the cam angle, and the curvature of the roller, which undercuts."""
-    degrees = _turn_angles()
     turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel, "Curvature")
     for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
         least = cam.min_curvature_radius
-        values = cam.curvature(np.radians(degrees))
+        values = cam.curvature(np.radians(_DEGREES))
         label = f"{cam.name}, ρ ≥ {least.value:.5g} mm"
-        axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
-        failing.past(axes, degrees, values, values * cam.roller_radius >= 1.0, "undercut")
+        axes.plot(_DEGREES, values, color=color, linewidth=1.5, linestyle=line, label=label)
+        failing.past(axes, _DEGREES, values, values * cam.roller_radius >= 1.0, "undercut")
         if math.isfinite(least.value):
             axes.plot([math.degrees(least.place)], [1.0 / least.value], "o", color=color, markersize=4.5)
     for radius in sorted({cam.roller_radius for cam in cams}):
-        axes.axhline(
-            1.0 / radius,
-            color=style.BLACK,
-            linewidth=0.9,
-            linestyle=(0, (5, 3)),
-            label=f"undercut: 1/roller radius {radius:g} mm",
-        )
+        label = f"undercut: 1/roller radius {radius:g} mm"
+        axes.axhline(1.0 / radius, color=style.BLACK, linewidth=0.9, linestyle=style.DASHED, label=label)
     _legend_of_cams(axes)
 
 
@@ -393,15 +368,15 @@ def again(axes: Axes, pieces: NDArray[Any], color: str, width: float, **look: An
 
 def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: Any = "-") -> complex:
     """A cam at cam angle 0, to scale: profile, pitch curve dashed, roller; the roller's centre is returned."""
-    pitch, profile = cam.points(np.radians(_turn_angles()))
+    pitch, profile = cam.points(np.radians(_DEGREES))
     pitch, profile = pitch + axis, profile + axis
     roller = complex(cam.path(np.array([0.0]), 1).position.flat[0]) + axis
     style.area(axes, profile, color=color, alpha=0.08, linewidth=0)
     words = f"{cam.name}, profile"
     axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, linestyle=line, label=words, zorder=3)
     cut(axes, cam, profile)
-    dashes: Any = (0, (5, 3))
-    axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
+    look: dict[str, Any] = {"color": color, "linewidth": 0.9, "linestyle": style.DASHED, "zorder": 3}
+    axes.plot(pitch.real, pitch.imag, **look, label="pitch curve")
     style.circle(axes, roller, cam.roller_radius, color=color, linewidth=1.4, zorder=4)
     axes.plot([roller.real], [roller.imag], "+", color=color, markersize=7, zorder=5)
     return roller
@@ -412,7 +387,7 @@ def cut(axes: Axes, cam: DiscCam, profile: Any) -> None:
 
     profile : (721,) array - the profile from cam angle 0 to 360 deg as it is drawn [mm]
     """
-    lost = cam.curvature(np.radians(_turn_angles())) * cam.roller_radius >= 1.0
+    lost = cam.curvature(np.radians(_DEGREES)) * cam.roller_radius >= 1.0
     if lost.any():
         where = np.where(lost | np.roll(lost, 1) | np.roll(lost, -1), profile, np.nan)
         look: Any = {"color": style.WRONG, "linewidth": 3.5, "zorder": 7, "gid": "undercut"}
@@ -424,9 +399,9 @@ def base_circles(axes: Axes, cams: Sequence[DiscCam], axis: complex = 0j) -> Non
     radii = {f"{cam.min_radius:.5g}": cam.min_radius for cam in cams}
     colors = CAM_COLORS if len(radii) > 1 else (style.GREY,)
     for (text, radius), color in zip(radii.items(), colors, strict=True):
-        dots: Any = (0, (1, 2))
-        style.circle(axes, axis, radius, color=color, linewidth=1.0, linestyle=dots, zorder=2)
-        axes.plot([], [], color=color, linewidth=1.0, linestyle=dots, label=f"base circle, {text} mm")
+        look: dict[str, Any] = {"color": color, "linewidth": 1.0, "linestyle": style.DOTTED}
+        style.circle(axes, axis, radius, **look, zorder=2)
+        axes.plot([], [], **look, label=f"base circle, {text} mm")
 
 
 def cam_shaft(axes: Axes, axis: complex, radius: float) -> None:
@@ -438,9 +413,7 @@ def cam_shaft(axes: Axes, axis: complex, radius: float) -> None:
 
 def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, shaft_radius: float = 0.0) -> None:
     """The cam axis with an arrow in the sense of rotation, clear of the shaft."""
-    least, most = (
-        pick(getattr(cam, name) for cam in cams) for pick, name in ((min, "min_radius"), (max, "max_radius"))
-    )
+    least, most = min(cam.min_radius for cam in cams), max(cam.max_radius for cam in cams)
     radius = max(0.45 * least, 0.5 * (shaft_radius + least), 0.15 * most)
     axes.plot([axis.real], [axis.imag], "+", color=style.BLACK, markersize=12, zorder=6)
     axes.plot([axis.real], [axis.imag], "o", color="white", markeredgecolor=style.BLACK, markersize=6, zorder=6)
@@ -450,6 +423,8 @@ def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, sha
     style.arrow(axes, end, 0.12 * radius * 1j * sense * (end - axis) / radius, style.BLACK)
 
 
+_FEW = 10.0**2.7
+"""An axis whose ends are nearer than this ratio would have two or three powers of ten."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -468,20 +443,16 @@ def powers_of_ten(axis: Axis) -> None:
         first = f"{value:.0e}"[0]
         return f"{value:g}" if few() and first in "25" else ""
 
-    axis.set_major_formatter(FuncFormatter(lambda value, k: f"{value:g}" if few() else _power(value, k)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}" if few() else _power(value)))
     axis.set_minor_formatter(FuncFormatter(between))
     axis.set_tick_params(which="minor", labelsize=axis.get_tick_params("major").get("labelsize"))
 
 
-_FEW = 10.0**2.7
-"""An axis whose ends are nearer than this ratio would have two or three powers of ten."""
-
-
-def _power(value: float, _: int) -> str:
+def _power(value: float) -> str:
     """A power of ten.
 
     Example
-        >>> _power(1000.0, 0), _power(0.01, 0)
+        >>> _power(1000.0), _power(0.01)
         ('10³', '10⁻²')
     """
     return "10" + str(round(math.log10(value))).translate(_RAISED)

@@ -47,10 +47,11 @@ def draw(
     shown = _position(scene, i)
     for k, part in enumerate(shown.parts):
         if isinstance(part, Chain):
-            if all(np.isfinite(joint[0]) for joint in part.joints):
-                joints = [complex(joint[0]) for joint in part.joints]
-                look = style.link if part.marked else _bare
-                look(axes, joints, part.color, _POINTS * part.width)
+            joints = [complex(joint[0]) for joint in part.joints]
+            if np.isfinite(joints).all() and part.marked:
+                style.link(axes, joints, part.color, _POINTS * part.width)
+            elif np.isfinite(joints).all():
+                axes.plot(*_xy(*joints), color=part.color, linewidth=_POINTS * part.width, zorder=3.7)
         elif isinstance(part, Arrow):
             if np.isfinite(part.start[0] + part.vector[0]):
                 start, vector = complex(part.start[0]), complex(part.vector[0])
@@ -66,11 +67,6 @@ def draw(
             _sense(axes, shown, center, radius, sense, color)
     _words(axes, shown)
     _keys(axes, scene)
-
-
-def _bare(axes: Axes, joints: list[complex], color: str, width: float) -> None:
-    """A line without joints."""
-    axes.plot([each.real for each in joints], [each.imag for each in joints], color=color, linewidth=width, zorder=3.7)
 
 
 def _xy(*points: complex) -> tuple[list[float], list[float]]:

@@ -110,10 +110,10 @@ def full_turn(axes: Axes, step: int = 60) -> None:
     numbers_at(axes, range(0, 361, step))
 
 
-def degrees(axes: Axes, start: float, end: float, most: int = 8) -> None:
-    """An x axis over angles [deg] with at most so many parts: of some degrees, half turns, or whole turns."""
-    whole = 360 * math.ceil((end - start) / (360.0 * most) - 1e-9)
-    step = next((part for part in _PARTS if (end - start) / part <= most + 1e-9), whole)
+def degrees(axes: Axes, start: float, end: float) -> None:
+    """An x axis over angles [deg] with at most eight parts: of some degrees, half turns, or whole turns."""
+    whole = 360 * math.ceil((end - start) / (360.0 * 8) - 1e-9)
+    step = next((part for part in _PARTS if (end - start) / part <= 8 + 1e-9), whole)
     axes.set_xlim(start, end)
     numbers_at(axes, [step * i for i in range(math.ceil(start / step - 1e-9), math.floor(end / step + 1e-9) + 1)])
 
@@ -252,13 +252,8 @@ def arrow(axes: Axes, start: complex, vector: complex, color: str = RED) -> None
     """A vector in drawing units."""
     end = start + vector
     if abs(vector) > 0.0 and math.isfinite(abs(vector)):
-        axes.annotate(
-            "",
-            (end.real, end.imag),
-            (start.real, start.imag),
-            arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 1.2, "shrinkA": 0, "shrinkB": 0},
-            zorder=6,
-        )
+        shape = {"arrowstyle": "-|>", "color": color, "linewidth": 1.2, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=shape, zorder=6)
 
 
 def dimension(

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
-from gearlink.cli.views.figures.drawing.panels import without_numbers
 from gearlink.cli.views.scenes.shown import speed_of
 
 if TYPE_CHECKING:
@@ -19,14 +19,8 @@ ROW, UNEVEN = "time", "uneven-time"
 """Names of the axes in ms, for those who read a figure: of an input that turns evenly, of a link that does not."""
 _BELOW = 33.0
 """Points from an x axis to the one in ms: room for its numbers and words."""
-_UNITS_OF_A_TURN = {
-    "crank angle [deg]": 360.0,
-    "input angle [deg]": 360.0,
-    "carrier angle [deg]": 360.0,
-    "cylinder angle [deg]": 360.0,
-    "cam angle [deg]": 360.0,
-    "input turns": 1.0,
-}
+_TURNING = ("crank", "input", "carrier", "cylinder", "cam")
+_UNITS_OF_A_TURN = {**{f"{name} angle [deg]": 360.0 for name in _TURNING}, "input turns": 1.0}
 """How the x axes over the input are named, and what a revolution is on them."""
 
 
@@ -47,15 +41,7 @@ def in_time(axes: Axes, speed: float | None, order: int, measure: str, scale: fl
     """
     if speed is None:
         return
-    factor = scale * speed**order
-
-    def faster(values: Any) -> Any:
-        return values * factor
-
-    def slower(values: Any) -> Any:
-        return values / factor
-
-    right = axes.secondary_yaxis("right", functions=(faster, slower))
+    right = axes.secondary_yaxis("right", functions=_times(scale * speed**order))
     right.set_ylabel(f"[{measure}/s{('', '', '²', '³')[order]}]", fontsize=8.5)
     right.tick_params(labelsize=8)
     right.ticklabel_format(scilimits=(-3, 5))
@@ -68,16 +54,12 @@ def in_ms(axes: Axes, each: float | None) -> None:
 
     each : time of a unit of the x axis [ms]
     """
-    if each is None:
-        return
+    if each is not None:
+        _time_row(axes, _times(each), ROW)
 
-    def to_ms(values: Any) -> Any:
-        return values * each
 
-    def from_ms(values: Any) -> Any:
-        return values / each
-
-    _time_row(axes, (to_ms, from_ms), ROW)
+def _times(factor: float) -> tuple[Any, Any]:
+    return lambda values: values * factor, lambda values: values / factor
 
 
 def in_uneven_ms(axes: Axes, degrees: Any, times: Any) -> None:
@@ -85,13 +67,7 @@ def in_uneven_ms(axes: Axes, degrees: Any, times: Any) -> None:
 
     degrees, times : (N,) arrays [deg], [ms] - both rising
     """
-
-    def to_ms(values: Any) -> Any:
-        return np.interp(values, degrees, times)
-
-    def from_ms(values: Any) -> Any:
-        return np.interp(values, times, degrees)
-
+    to_ms, from_ms = partial(np.interp, xp=degrees, fp=times), partial(np.interp, xp=times, fp=degrees)
     _time_row(axes, (to_ms, from_ms), UNEVEN)
 
 
@@ -114,7 +90,7 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
     for axes, words, below in zip(stacked, labels, [*labels[1:], ""], strict=False):
         if words == below:
             axes.set_xlabel("")
-            without_numbers(axes)
+            panels.without_numbers(axes)
         else:
             over_input(axes, turn)
 

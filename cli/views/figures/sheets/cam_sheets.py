@@ -145,9 +145,8 @@ def _polar(axes: Any, design: Any) -> None:
     axes.tick_params(labelsize=8)
     axes.set_rlabel_position(22.5)
     axes.grid(color=style.LIGHT, linewidth=0.6)
-    axes.set_title(
-        "|pressure angle| [deg] on the cam, from its start mark", loc="left", fontsize=9, fontweight="bold", pad=18
-    )
+    title = "|pressure angle| [deg] on the cam, from its start mark"
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=18)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), frameon=False, fontsize=8)
 
 

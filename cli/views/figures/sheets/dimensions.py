@@ -68,10 +68,9 @@ class View(NamedTuple):
 
 def of_rows(part: Part) -> complex:
     """Room that rows of dimensions take beside the view and below it [mm of paper]."""
-    lying = [_ROW * each.row for each in part.dimensions if each.row and not _is_upright(each)]
-    upright = [
-        _ROW * each.row + _LETTER * len(each.words) for each in part.dimensions if each.row and _is_upright(each)
-    ]
+    rows = [each for each in part.dimensions if each.row]
+    lying = [_ROW * each.row for each in rows if not _is_upright(each)]
+    upright = [_ROW * each.row + _LETTER * len(each.words) for each in rows if _is_upright(each)]
     return complex(max(upright, default=0.0), max(lying, default=0.0))
 
 
@@ -113,10 +112,8 @@ def _way(each: Dimension) -> float:
 
 def _free(view: View, places: Sequence[_T], boxes: Sequence[paper.Box], words: Sequence[paper.Box]) -> list[_T]:
     """Places whose words lie within the view and on no others; else those within the view, else all."""
-    within = [_is_within(box, view.room) for box in boxes]
-    clear = [
-        inside and not any(_meet(box, other) for other in words) for inside, box in zip(within, boxes, strict=True)
-    ]
+    within = [box.is_within(view.room) for box in boxes]
+    clear = [inside and not any(map(box.meets, words)) for inside, box in zip(within, boxes, strict=True)]
     for kept in (clear, within):
         if any(kept):
             return [place for place, keep in zip(places, kept, strict=True) if keep]
@@ -142,9 +139,8 @@ def extremes(part: Part) -> tuple[Dimension, ...]:
 
 def _is_measured(circle: Circle, part: Part) -> bool:
     """Edges of the part; the tips of a gear with two views stand beside the second."""
-    return circle.layer not in ("REFERENCE_CIRCLE", "BASE_CIRCLE", "WORKING_CIRCLE", "ROOT_CIRCLE") and (
-        circle.layer != "TIP_CIRCLE" or not part.width
-    )
+    beside = ("TIP_CIRCLE",) if part.width else ()
+    return circle.layer not in ("REFERENCE_CIRCLE", "BASE_CIRCLE", "WORKING_CIRCLE", "ROOT_CIRCLE", *beside)
 
 
 def _clearest(ways: Sequence[float], taken: Sequence[float], edges: Sequence[float] = ()) -> int:
@@ -217,12 +213,9 @@ def _words(view: View, group: Sequence[Circle]) -> str:
         return cam_sheets.bore_words(across)
     if circle.layer in ("RIM", "TIP_CIRCLE"):
         return f"⌀{across:.3f}"
-    several = len(group) > 1
-    return (
-        (f"{len(group)} × " if several else "")
-        + f"⌀{size(across)}"
-        + (f" on ⌀{size(2.0 * abs(circle.center))}" if several else "")
-    )
+    if len(group) == 1:
+        return f"⌀{size(across)}"
+    return f"{len(group)} × ⌀{size(across)} on ⌀{size(2.0 * abs(circle.center))}"
 
 
 def _diameter(
@@ -282,11 +275,3 @@ def _box(middle: complex, size: complex) -> paper.Box:
     """A box by its middle, width and height [mm of paper]."""
     low, high = middle - 0.5 * size, middle + 0.5 * size
     return paper.Box(low.real, low.imag, high.real, high.imag)
-
-
-def _is_within(box: paper.Box, room: paper.Box) -> bool:
-    return room.left <= box.left and box.right <= room.right and room.low <= box.low and box.high <= room.high
-
-
-def _meet(box: paper.Box, other: paper.Box) -> bool:
-    return box.left < other.right and other.left < box.right and box.low < other.high and other.low < box.high

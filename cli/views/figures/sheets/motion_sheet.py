@@ -126,18 +126,11 @@ def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Cours
 
         return rates
 
+    over = f"{input_words(given)} [{'deg' if turning else 'mm'}]"
+    shared: Any = {"speed": speed, "per": given.unit, "joints": tuple(after.tolist())}
+    bands = panels.phases_of if turning else lambda _: ()
     return [
-        Course(
-            each.name,
-            f"{input_words(given)} [{'deg' if turning else 'mm'}]",
-            x,
-            at(each.course),
-            each.course.unit,
-            speed,
-            panels.phases_of(each) if turning else (),
-            per=given.unit,
-            joints=tuple(after.tolist()),
-        )
+        Course(each.name, over, x, at(each.course), each.course.unit, bands=bands(each), **shared)
         for each in motion.outputs
     ]
 
@@ -191,27 +184,18 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
 # Outputs, kind by kind
 
 
-def _angles() -> Reals:
-    return np.arange(721) * 0.5
-
-
 def press(design: Any) -> list[Course]:
     """Bed and cylinder; of a bed whose cam cannot be, its chain alone."""
     if not design.bed_moves:
         bed, cylinder = _courses(design.without_cam.moving, design.input_speed)
         return [replace(bed, name="Bed, without its cam"), cylinder]
     bed, cylinder = _courses(design.moving, design.input_speed)
-    zone, back = cylinder.bands, panels.Phase("back", _turning(bed), 360.0)
-    return [replace(bed, bands=(*zone, back)), cylinder]
-
-
-def _turning(course: Course) -> float:
-    """Where a course that starts at its minimum has its maximum [deg]."""
 
     def place(x: Reals) -> Reals:
-        return np.asarray(course.at(x)[0])
+        return np.asarray(bed.at(x)[0])
 
-    return extremes_over([(place, True)], float(course.x[0]), float(course.x[-1]))[0].place
+    turning = extremes_over([(place, True)], float(bed.x[0]), float(bed.x[-1]))[0].place
+    return [replace(bed, bands=(*cylinder.bands, panels.Phase("back", turning, 360.0))), cylinder]
 
 
 def gripper(design: Any) -> list[Course]:
@@ -359,13 +343,8 @@ def contact(design: Any) -> Figure:
             style.circle(axes, at, cam.roller_radius, color=style.GREY, linewidth=0.8, gid="roller")
             style.letter(axes, at, f"{360 * k // _ROLLERS}°", (0.0, 0.0))
         axes.plot(pitch.real, pitch.imag, color=style.GREY, linewidth=0.7, linestyle=style.CHAIN)
-        _worst(axes, cam, worst.place)
+        at = complex(cam.points(np.array([worst.place]))[0][0])
+        style.circle(axes, at, cam.roller_radius, color=style.BLACK, linewidth=1.5, gid="worst")
         axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10)
         axes.autoscale_view()
     return made
-
-
-def _worst(axes: Axes, cam: Any, place: float) -> None:
-    """The roller where the pressure angle is largest."""
-    at = complex(cam.points(np.array([place]))[0][0])
-    style.circle(axes, at, cam.roller_radius, color=style.BLACK, linewidth=1.5, gid="worst")

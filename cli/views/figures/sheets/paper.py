@@ -43,6 +43,15 @@ class Box:
         """Its centre."""
         return complex(0.5 * (self.left + self.right), 0.5 * (self.low + self.high))
 
+    def is_within(self, room: Box) -> bool:
+        """Whether it lies in another."""
+        return room.left <= self.left and self.right <= room.right and room.low <= self.low and self.high <= room.high
+
+    def meets(self, other: Box) -> bool:
+        """Whether it shares something with another."""
+        across = self.left < other.right and other.left < self.right
+        return across and self.low < other.high and other.low < self.high
+
 
 @dataclass(frozen=True)
 class Page:
@@ -138,6 +147,13 @@ def text(axes: Axes, at: complex, words: str, size: float = TEXT, **look: Any) -
 def value(axes: Axes, at: complex, words: str, **look: Any) -> None:
     """A size or a label: lines are interrupted behind it, so that a decimal point does not read as a colon."""
     text(axes, at, words, **{"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.9}, **look})
+
+
+def centre_lines(axes: Axes, axis: complex, scale: float, low: complex, high: complex) -> None:
+    """Thin chains through the axis of a part, past the corners of what is drawn of it [mm of the part]."""
+    for turn, ends in ((1.0, (low.real, high.real)), (1j, (low.imag, high.imag))):
+        centre = axis + turn * (scale * np.array(ends) + PAST * np.array([-1.0, 1.0]))
+        line(axes, centre, 0.18, linestyle=style.CHAIN, gid="axis")
 
 
 def arrow(axes: Axes, start: complex, end: complex, style_: str = "-|>") -> None:

@@ -79,10 +79,8 @@ def drawn(design: Any) -> dict[str, Callable[[], Figure]]:
     for name, make in parts.items():
         if sheet := drawing_of(kind, name, cams):
             chosen.setdefault(sheet, []).append(make)
-    return {
-        name: partial(draw, design, makes, f"{k} / {len(chosen)}")
-        for k, (name, makes) in enumerate(chosen.items(), start=1)
-    }
+    numbered = enumerate(chosen.items(), start=1)
+    return {name: partial(draw, design, makes, f"{k} / {len(chosen)}") for k, (name, makes) in numbered}
 
 
 def draw(design: Any, makes: Sequence[Callable[[], Part]], number: str) -> Figure:
@@ -114,8 +112,9 @@ def draw(design: Any, makes: Sequence[Callable[[], Part]], number: str) -> Figur
     elif rows:
         _polar_table(axes, page, rows)
     paper.notes(axes, page, _notes(design, part, rows))
-    document = f"{_sort(part)}, workshop drawing"
-    paper.block(axes, page, f"{design.spec.name}: {part.title}", document, scale, number, _material(design, part))
+    sort = "gear" if _is_gear(part) else "cam" if "PITCH_CURVE" in _layers(part) else "part"
+    title, document = f"{design.spec.name}: {part.title}", f"{sort}, workshop drawing"
+    paper.block(axes, page, title, document, scale, number, _material(design, part))
     return made
 
 
@@ -125,11 +124,8 @@ def _together(parts: Sequence[Part]) -> Part:
     if not others:
         return first
     wall, center = (complex(each) for each in first.stretches[0].points(np.array([first.stretches[0].low]))[:, 0])
-    walls = (
-        replace(each, layers=each.layers[:1], points=partial(_first, each.points), extra=None)
-        for part in others
-        for each in part.stretches
-    )
+    every = (each for part in others for each in part.stretches)
+    walls = (replace(each, layers=each.layers[:1], points=partial(_first, each.points), extra=None) for each in every)
     roller = Circle("ROLLER", abs(wall - center), center)
     return replace(first, title="groove", stretches=(*first.stretches, *walls), circles=(*first.circles, roller))
 
@@ -155,11 +151,6 @@ def _is_rack(part: Part) -> bool:
 
 def _is_gear(part: Part) -> bool:
     return _is_rack(part) or any(each.layer == "REFERENCE_CIRCLE" for each in part.circles)
-
-
-def _sort(part: Part) -> str:
-    """What a title block calls the part."""
-    return "gear" if _is_gear(part) else "cam" if "PITCH_CURVE" in _layers(part) else "part"
 
 
 def _reach(shape: Contour) -> tuple[complex, complex]:
@@ -208,10 +199,7 @@ def _outline(view: dimensions.View) -> None:
 
 def _centre_lines(view: dimensions.View) -> None:
     """Thin chains through the axis and through holes or pins about it, with the circle on which several lie."""
-    past = paper.PAST * np.array([-1.0, 1.0])
-    for turn, ends in ((1.0, (view.low.real, view.high.real)), (1j, (view.low.imag, view.high.imag))):
-        centre = view.axis + turn * (view.scale * np.array(ends) + past)
-        paper.line(view.axes, centre, 0.18, linestyle=style.CHAIN, gid="axis")
+    paper.centre_lines(view.axes, view.axis, view.scale, view.low, view.high)
     beside = _beside(view.shape.part)
     for each in beside:
         radial = each.center / abs(each.center)
@@ -243,7 +231,7 @@ def _side(view: dimensions.View, left: complex) -> None:
     radii = {circle.layer: circle.radius for circle in part.circles}
     farthest = max(float(np.abs(line.nodes).max()) for line in view.shape.lines)
     outer, wide = radii.get("RIM", radii.get("TIP_CIRCLE", farthest)), scale * (part.width or 0.0)
-    tall, middle = scale * outer, complex(left.real, left.imag)
+    tall, middle = scale * outer, left
     corners = [middle - 1j * tall, middle + wide - 1j * tall, middle + wide + 1j * tall, middle + 1j * tall]
     paper.line(axes, [*corners, corners[0]], 0.5)
     if "REFERENCE_CIRCLE" in radii:
@@ -255,17 +243,15 @@ def _side(view: dimensions.View, left: complex) -> None:
     paper.arrow(axes, above, above + wide, "<|-|>")
     paper.text(axes, above + 0.5 * wide + 2.5j, f"{part.width:g}", ha="center")
     paper.arrow(axes, beside - 1j * tall, beside + 1j * tall, "<|-|>")
-    words = f"⌀{2.0 * outer:.3f}"
-    paper.value(axes, beside + 1.2 + 0.5j * tall, words, rotation=90, ha="left")
+    paper.value(axes, beside + 1.2 + 0.5j * tall, f"⌀{2.0 * outer:.3f}", rotation=90, ha="left")
 
 
 def _table(made: Figure, page: paper.Page, part: Part) -> None:
     """The lines of the part's table."""
     assert part.lines is not None, "asked for only of parts with such lines"
     box = page.table
-    rows = [
-        [item, symbol, unit.replace("um", "µm"), gear_text(value, unit)] for item, symbol, value, unit in part.lines()
-    ]
+    lines = part.lines()
+    rows = [[item, symbol, unit.replace("um", "µm"), gear_text(value, unit)] for item, symbol, value, unit in lines]
     count = 2 if page.name == "A4" and len(rows) > _A4_LINES else 1
     most = max(-(-len(rows) // count), _A4_LINES if page.name == "A4" else _A3_LINES)
     wide, tall = (box.right - box.left) / count, box.high - box.low - 2.0
@@ -283,12 +269,9 @@ def _polar_table(axes: Axes, page: paper.Page, rows: Rows) -> None:
     """Radius and direction of each place."""
     heads = ("°", "R", "φ")
     digits = next((some for some in range(4) if all(math.isclose(at, round(at, some)) for at, _ in rows)), 4)
-    cells = [(f"{at:.{digits}f}", f"{abs(place):.3f}", f"{_degrees(place):.3f}") for at, place in rows]
+    angles = np.degrees(np.angle([place for _, place in rows])) % 360.0
+    cells = [(f"{at:.{digits}f}", f"{abs(z):.3f}", f"{way:.3f}") for (at, z), way in zip(rows, angles, strict=True)]
     paper.columns(axes, page, heads, cells, math.ceil(len(cells) / (60 if page.name == "A3" else 30)))
-
-
-def _degrees(place: complex) -> float:
-    return math.degrees(np.angle(place)) % 360.0
 
 
 def _notes(design: Any, part: Part, rows: Rows) -> list[str]:

@@ -148,12 +148,9 @@ def polygons(design: FlatbedPress) -> Figure:
         axes.set_title(f"{row + 1}: {table['input_angle'][row]:g}°", loc="left", fontsize=8, fontweight="bold", pad=2)
         _polygon(axes, {name: complex(each[row]) for name, each in ends.items()})
         corner = middle - half * (0.95 + 0.95j)
-        axes.plot(
-            [corner.real, corner.real + _POLYGON_BAR * scale], [corner.imag] * 2, color=style.BLACK, linewidth=1.5
-        )
-        axes.annotate(
-            f"{_POLYGON_BAR * scale:g} mm/s", (corner.real, corner.imag), (0, 2), textcoords="offset points", fontsize=6
-        )
+        start, long = (corner.real, corner.imag), _POLYGON_BAR * scale
+        axes.plot([corner.real, corner.real + long], [corner.imag] * 2, color=style.BLACK, linewidth=1.5)
+        axes.annotate(f"{long:g} mm/s", start, (0, 2), textcoords="offset points", fontsize=6)
     return made
 
 
@@ -265,14 +262,7 @@ def _view(axes: Axes, page: paper.Page, walls: tuple[DiscCam, Any], scale: float
     if cam.roller_radius:
         paper.line(axes, axis + scale * pitch, 0.25, linestyle=style.CHAIN, gid="pitch curve")
     paper.line(axes, axis + scale * touching, 0.25, linestyle=style.DASHED)
-    for way, ends in ((1.0, np.array([low.real, high.real])), (1j, np.array([low.imag, high.imag]))):
-        paper.line(
-            axes,
-            axis + way * (scale * ends + paper.PAST * np.array([-1.0, 1.0])),
-            0.18,
-            linestyle=style.CHAIN,
-            gid="axis",
-        )
+    paper.centre_lines(axes, axis, scale, low, high)
     paper.line(axes, axis + scale * np.array([0.0, 1.05 * roller]), 0.18, linestyle=style.CHAIN)
     way = roller / abs(roller)
     edge = float(np.abs(profile[int(np.argmin(np.abs(np.angle(profile / way))))]))
@@ -309,20 +299,16 @@ def _dimensions(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: fl
     Returns
         taken : directions from the axis in which something stands
     """
-    theta = np.linspace(0.0, _TURN, 7201)
-    _, profile = cam.points(theta)
+    profile = cam.points(np.linspace(0.0, _TURN, 7201))[1]
     size = np.abs(profile)
     ends = [(int(size.argmin()), cam.min_radius)] + [(int(size.argmax()), cam.max_radius)] * (not is_cut(cam))
     for k, radius in ends:
         way = complex(profile[k]) / float(size[k])
-        end = axis + scale * radius * way
-        paper.arrow(axes, axis, end)
-        at = axis + 0.66 * scale * radius * way
-        paper.value(axes, at, f"R{radius:.3f}", ha="center")
+        paper.arrow(axes, axis, axis + scale * radius * way)
+        paper.value(axes, axis + 0.66 * scale * radius * way, f"R{radius:.3f}", ha="center")
     roller = complex(cam.points(np.zeros(1))[0][0])
-    at = axis + scale * roller
     if cam.roller_radius:
-        paper.value(axes, at, f"⌀{2.0 * cam.roller_radius:g}", ha="center")
+        paper.value(axes, axis + scale * roller, f"⌀{2.0 * cam.roller_radius:g}", ha="center")
     taken = [way / abs(way) for way in [complex(profile[k]) for k, _ in ends] + [roller]]
     return [*taken, _bore_note(axes, cam, axis, scale, shaft, taken)] if shaft > 0.0 else taken
 
@@ -342,9 +328,8 @@ def _bore_note(axes: Axes, cam: DiscCam, axis: complex, scale: float, shaft: flo
     words = cam_sheets.bore_words(2.0 * shaft)
     rows = words.split("\n")
     half = 0.5 * complex(_LETTER * max(map(len, rows)), _LINE * len(rows))
-    drawn = axis + scale * np.concatenate(
-        [*cam.points(np.linspace(0.0, _TURN, 1441)), cam_sheets.bore(shaft, taken[-1])]
-    )
+    outlines = *cam.points(np.linspace(0.0, _TURN, 1441)), cam_sheets.bore(shaft, taken[-1])
+    drawn = axis + scale * np.concatenate(outlines)
     places: list[tuple[bool, bool, float, complex]] = []
     for way in np.exp(1j * _AROUND).tolist():
         seen = (drawn - axis) * way.conjugate()
@@ -406,10 +391,9 @@ def _arcs(contour: Contour) -> str:
         return f"R{contour.nose:g}, its centre {contour.distance:.4f} mm from the axis"
     flank = "straight flanks" if math.isinf(contour.flank) else f"flanks R{contour.flank:.4f}"
     nose = f"nose R{contour.nose:.4f}, its centre {contour.distance:.4f} mm from the axis"
-    outer = (
-        f"R{contour.distance + contour.nose:.4f} over {math.degrees(contour.dwell):g} deg, " if contour.dwell else ""
-    )
-    return f"base circle R{contour.base:g}, {flank}, {nose}, {outer}action {math.degrees(contour.whole):.4f} deg"
+    outer = f"R{contour.distance + contour.nose:.4f} over {math.degrees(contour.dwell):g} deg, "
+    action = f"{outer if contour.dwell else ''}action {math.degrees(contour.whole):.4f} deg"
+    return f"base circle R{contour.base:g}, {flank}, {nose}, {action}"
 
 
 def _toleranced(sized: Sequence[str], errors: Sequence[str]) -> str:

@@ -61,7 +61,9 @@ def draw(design: Any, at: Sequence[float] = (), wanted: str = "") -> Figure:
     grid: Any = made.add_gridspec(count + 1, 1, height_ratios=[1.0] * count + [1.15])
     motion = design.moving
     for row, place in enumerate(places):
-        q = _input_at(motion.input, place)
+        q = math.radians(place) if motion.input.unit == "rad" else place
+        if motion.input.turns is not None:  # within the period
+            q = motion.input.start + (q - motion.input.start) % (motion.input.end - motion.input.start)
         columns = grid[row].subgridspec(1, 3, width_ratios=(1.25, 0.95, 1.15))
         _mechanism(made.add_subplot(columns[0]), design, q, wanted or _WISHES)
         for order in (1, 2):
@@ -72,12 +74,6 @@ def draw(design: Any, at: Sequence[float] = (), wanted: str = "") -> Figure:
     return made
 
 
-def _input_at(given: Input, place: float) -> float:
-    """The input of a place [deg, mm], within the period of one that repeats [rad, mm]."""
-    q = math.radians(place) if given.unit == "rad" else place
-    return q if given.turns is None else given.start + (q - given.start) % (given.end - given.start)
-
-
 def beyond(design: Any, at: Sequence[float]) -> str:
     """What is wrong with inputs [deg, mm] that are beyond the range of the motion; "" where none is."""
     given = design.moving.input
@@ -86,7 +82,7 @@ def beyond(design: Any, at: Sequence[float]) -> str:
         low, high, unit = math.degrees(low), math.degrees(high), "deg"
     room = 1e-9 * (high - low)
     wrong = [each for each in at if given.turns is None and not low - room <= each <= high + room]
-    words = motion_sheet.input_words(design.moving.input)
+    words = motion_sheet.input_words(given)
     return f"{wrong[0]:g}: the {words} runs from {low:.7g} to {high:.7g} {unit}" if wrong else ""
 
 
@@ -124,16 +120,16 @@ def fraction_at(frame: Frame, q: float) -> float:
 def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
     frame = frame_of(design)
     scene = shown.build(design, np.array([fraction_at(frame, q)]), shown.wishes(wanted))
-    scene = replace(  # without remarks of several words: it is small
-        scene,
-        marks=tuple(mark for mark in scene.marks if " " not in mark.text.replace(", ", "").removeprefix("P ")),
-        parts=tuple(
-            replace(part, label="") if isinstance(part, Body) and " " in part.label else part for part in scene.parts
-        ),
+    # Without remarks of several words: it is small.
+    marks = tuple(mark for mark in scene.marks if " " not in mark.text.replace(", ", "").removeprefix("P "))
+    parts = (replace(each, label="") if isinstance(each, Body) and " " in each.label else each for each in scene.parts)
+    scene = replace(scene, marks=marks, parts=tuple(parts))
+    words = motion_sheet.input_words(design.moving.input)
+    panels.drawing(
+        axes, f"At {words} {f'{math.degrees(q):.5g}°' if design.moving.input.unit == 'rad' else f'{q:.5g} mm'}"
     )
-    panels.drawing(axes, f"At {_input(design, q)}")
-    panels.few_ticks(axes.xaxis, 4)
-    panels.few_ticks(axes.yaxis, 4)
+    for axis in (axes.xaxis, axes.yaxis):
+        panels.few_ticks(axis, 4)
     scene_axes.draw(axes, scene)
 
 
@@ -147,11 +143,6 @@ def _short(name: str, others: Iterable[str]) -> str:
     own = name.rpartition(".")[2]
     told = own if sum(other.rpartition(".")[2].lower() == own.lower() for other in others) == 1 else name
     return told.replace("_", " ")
-
-
-def _input(design: Any, q: float) -> str:
-    words = motion_sheet.input_words(design.moving.input)
-    return f"{words} {math.degrees(q):.5g}°" if design.moving.input.unit == "rad" else f"{words} {q:.5g} mm"
 
 
 def rates(design: Any, q: Reals, order: int) -> tuple[dict[str, Any], dict[str, list[str]]]:
@@ -240,8 +231,8 @@ def _largest_rate(design: Any, order: int) -> float:
 def _vector_axes(axes: Axes, title: str) -> None:
     panels.curves(axes, "", "", title)
     axes.set_aspect("equal", adjustable="datalim")
-    panels.few_ticks(axes.xaxis, 4)
-    panels.few_ticks(axes.yaxis, 4)
+    for axis in (axes.xaxis, axes.yaxis):
+        panels.few_ticks(axis, 4)
     axes.tick_params(labelsize=7)
 
 
