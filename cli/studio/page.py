@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 from nicegui import ui
 
 from gearlink.cli.render.numbers import drawn
-from gearlink.cli.views.films.page import part
-from gearlink.cli.views.page.sections import as_script
+from gearlink.cli.views.films.page import as_script, part
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

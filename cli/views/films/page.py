@@ -19,12 +19,15 @@ from gearlink.cli.views.scenes.scene import Arrow, Chain, Chart, Line, Part, Poi
 
 def page(stage: Stage, fps: float) -> str:
     """The page; the same scene gives the same text."""
-    shown = player_data(stage.scene, stage.title, fps, (stage.width, stage.height))
-    # A closing tag in a name must not end the script.
-    data = json.dumps(shown, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    data = data.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    data = as_script(player_data(stage.scene, stage.title, fps, (stage.width, stage.height)))
     parts = {"TITLE": html.escape(stage.title), "STYLE": part("player.css"), "SCRIPT": part("player.js"), "DATA": data}
     return re.sub("@([A-Z]+)@", lambda found: parts[found[1]], part("player.html"))
+
+
+def as_script(value: Any) -> str:
+    """Plain data as a script reads it, without what could end that."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
 def part(name: str) -> str:
@@ -112,13 +115,8 @@ def _chart(chart: Chart) -> dict[str, Any]:
         "now": _rounded(chart.now, 4),
         "bands": [{"name": b.name, "start": b.start, "end": b.end, "color": b.color} for b in chart.bands],
         "curves": [
-            {
-                "label": curve.label,
-                "color": curve.color,
-                "x": _figures(chart.x),
-                "y": _figures(curve.y),
-                "now": _figures(curve.now),
-            }
+            {"label": curve.label, "color": curve.color}
+            | {axis: _figures(values) for axis, values in (("x", chart.x), ("y", curve.y), ("now", curve.now))}
             for curve in chart.curves
         ],
     }

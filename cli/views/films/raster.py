@@ -54,8 +54,7 @@ FINER = 2
 
 def flat(points: Points) -> list[float]:
     """x, y, x, y ... as Pillow takes them."""
-    flat: list[float] = np.column_stack([points.real, points.imag]).ravel().tolist()
-    return flat
+    return np.column_stack([points.real, points.imag]).ravel().tolist()
 
 
 def bar(draw: ImageDraw.ImageDraw, start: complex, end: complex, width: float, color: str) -> None:
@@ -295,7 +294,6 @@ class Raster:
         for mark, shift in zip(self.stage.scene.marks, letters, strict=True):
             if mark.text and np.isfinite(mark.point[i]):
                 self._haloed(made, self._pixel(mark.point, i) + shift, mark.text, BLACK, WHITE)
-
         self._fails(made, draw, i)
 
     def _fails(self, made: Picture, draw: ImageDraw.ImageDraw, i: int) -> None:
@@ -305,12 +303,8 @@ class Raster:
             width = max(3, size // 4)
             draw.rectangle([0, 0, made.width - 1, made.height - 1], outline=WRONG, width=width)
         for row, line in enumerate(words):
-            draw.text(
-                (0.9 * size, (VALUES_ROOM + 0.1 + FAULT_ROW * row) * size),
-                _MINUS.sub("−", line),
-                font=self._font,
-                fill=WRONG,
-            )
+            place = 0.9 * size, (VALUES_ROOM + 0.1 + FAULT_ROW * row) * size
+            draw.text(place, _MINUS.sub("−", line), font=self._font, fill=WRONG)
 
     def _pixel(self, points: Points, i: int) -> complex:
         return complex(self.stage.pixels(points[i : i + 1])[0])
@@ -331,14 +325,12 @@ class Raster:
 
     def _stamp(self, words: str, color: str, halo: str, right: int, down: int) -> Picture:
         """A picture of the words, transparent about them, so many quarters of a pixel beside its middle."""
-        look: dict[str, Any] = {"font": self._font, "anchor": "mm", "stroke_width": 2, "stroke_fill": halo}
-        box = ImageDraw.Draw(Image.new("L", (1, 1))).textbbox(
-            (0, 0), words, font=self._font, anchor="mm", stroke_width=2
-        )
+        look: dict[str, Any] = {"font": self._font, "anchor": "mm", "stroke_width": 2}
+        box = ImageDraw.Draw(Image.new("L", (1, 1))).textbbox((0, 0), words, **look)
         half = [int(max(abs(box[i]), abs(box[i + 2]))) + 2 for i in (0, 1)]
         stamp = Image.new("RGBA", (2 * half[0], 2 * half[1]), halo + "00" if len(halo) == 7 else halo)
-        draw = ImageDraw.Draw(stamp)
-        draw.text((half[0] + 0.25 * right, half[1] + 0.25 * down), words, fill=color, **look)
+        place = half[0] + 0.25 * right, half[1] + 0.25 * down
+        ImageDraw.Draw(stamp).text(place, words, fill=color, stroke_fill=halo, **look)
         return stamp
 
 

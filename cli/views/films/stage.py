@@ -81,11 +81,9 @@ class Stage:
     @property
     def _foot(self) -> float:
         """Below the keys of arrows."""
-        return (
-            self.height - 0.9 * self.text_size
-            if self.scene.chart is None
-            else self.chart_room.top - 1.6 * self.text_size
-        )
+        if self.scene.chart is None:
+            return self.height - 0.9 * self.text_size
+        return self.chart_room.top - 1.6 * self.text_size
 
     @property
     def room(self) -> Box:

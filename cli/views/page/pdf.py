@@ -39,9 +39,8 @@ def document(parts: Sequence[tuple[Design, Report]], text: str, changes: Sequenc
 
     stream, name = io.BytesIO(), parts[0][0].spec.name
     with write.fonts_of(name), PdfPages(stream, metadata={"CreationDate": None, "Creator": "gearlink"}) as pages:
-        for page in _pages(
-            [*_summary(parts), *(("", ""), ("Changes", "head")) * bool(changes), *_plain(changes)], name
-        ):
+        heads = (("", ""), ("Changes", "head")) * bool(changes)
+        for page in _pages([*_summary(parts), *heads, *_plain(changes)], name):
             pages.savefig(page)
         for design, report in parts:
             pages.savefig(write.draw(report.command, design, report.checks))

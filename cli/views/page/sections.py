@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import hashlib
 import io
-import json
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -16,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.render.numbers import drawn, number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.cli.views.figures import write
 from gearlink.cli.views.figures.drawing import placing
+from gearlink.cli.views.films.page import as_script
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.version import VERSION
@@ -69,14 +69,9 @@ def whole_page(title: str, body: Iterable[str], more: str = "") -> str:
     head = '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
     style = part("player.css") + _file("page.css")
     script = "\n" + "\n".join([part("player.js"), _file("page.js"), more])
-    return "\n".join(
-        [
-            '<!DOCTYPE html>\n<html lang="en"><head>',
-            f"{head}{_policy(script)}<title>{escape(title)}</title><style>{style}</style></head>\n<body>",
-            *body,
-            f"<script>{script}</script>\n</body></html>\n",
-        ]
-    )
+    head = f"{head}{_policy(script)}<title>{escape(title)}</title><style>{style}</style></head>\n<body>"
+    end = f"<script>{script}</script>\n</body></html>\n"
+    return "\n".join(['<!DOCTYPE html>\n<html lang="en"><head>', head, *body, end])
 
 
 def _policy(script: str) -> str:
@@ -106,9 +101,8 @@ def _file(name: str) -> str:
 def head(spec: Any, reports: Sequence[Report]) -> str:
     """Name, kind, verdict, the key results of each command and the checks that do not pass."""
     kind = f"{escape(spec.kind)}, computed with gearlink {VERSION}"
-    return (
-        f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{_verdict(reports)}{"".join(_key_results(reports))}'
-    )
+    verdict = f"{_verdict(reports)}{''.join(_key_results(reports))}"
+    return f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{verdict}'
 
 
 def anchor(command: str) -> str:
@@ -148,11 +142,6 @@ def given(text: str, spec: Any) -> str:
         f'<section id="input"><h2 class="input">Input</h2>\n<pre>{escape(text.rstrip())}</pre>\n'
         f'<h3>Keys in force, defaults included</h3>\n<div class="keys">{keys}</div></section>'
     )
-
-
-def results(report: Report) -> str:
-    """Quantities, findings and tables of a command."""
-    return "\n".join(_results(report))
 
 
 def _verdict(reports: Sequence[Report]) -> str:
@@ -213,9 +202,10 @@ def _as_written(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _results(report: Report) -> Iterator[str]:
+def results(report: Report) -> str:
+    """Quantities, findings and tables of a command."""
+    made, scale = [], scales(report)
     if report.quantities:
-        scale = scales(report)
         rows = (
             (
                 q.name.replace("_", " "),
@@ -227,16 +217,14 @@ def _results(report: Report) -> Iterator[str]:
             )
             for q in report.quantities
         )
-        yield "<h3>Results</h3>" + table(
-            ("quantity", "symbol", "value", "unit", "meaning", "source"), rows, numeric=(2,)
-        )
+        heads = ("quantity", "symbol", "value", "unit", "meaning", "source")
+        made.append("<h3>Results</h3>" + table(heads, rows, numeric=(2,)))
     if report.checks:
         order = ("fail", "warn", "pass")
         found = sorted(report.checks, key=lambda check: order.index(check.status))
         findings = ((c.status, f"{c.code} {c.name}", "\n".join(c.lines)) for c in found)
-        yield "<h3>Checks</h3>" + table(("status", "check", "finding"), findings, numeric=(), marked=True)
-    for each in report.tables:
-        yield _data(each, scales(report))
+        made.append("<h3>Checks</h3>" + table(("status", "check", "finding"), findings, numeric=(), marked=True))
+    return "\n".join([*made, *(_data(each, scale) for each in report.tables)])
 
 
 def _below_each_other(value: Any) -> str:
@@ -277,20 +265,13 @@ def _data(given: Table, scale: Mapping[str, float]) -> str:
     return f"<h3>{title}</h3>{note}" + table(heads, cells, numeric=range(len(heads)))
 
 
-def _broken(text: str) -> str:
-    """Text of a cell, whose lines stand below each other."""
-    return escape(text).replace("\n", "<br>")
-
-
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Iterable[int], marked: bool = False) -> str:
     """An HTML table that scrolls within itself; with `marked` the first cell of a row is its style."""
     right = set(numeric)
 
     def cells(tag: str, row: Sequence[str]) -> str:
-        return "".join(
-            f"<{tag}{' class=n' if i in right and not _SENTENCE.search(cell) else ''}>{_broken(cell)}</{tag}>"
-            for i, cell in enumerate(row)
-        )
+        told = [(cell, " class=n" if i in right and not _SENTENCE.search(cell) else "") for i, cell in enumerate(row)]
+        return "".join(f"<{tag}{look}>{escape(cell)}</{tag}>".replace("\n", "<br>") for cell, look in told)
 
     lines = [f"<tr{f' class={row[0]}' if marked else ''}>{cells('td', row)}</tr>" for row in rows]
     body, many = "\n".join(lines), " class=many" if len(heads) > _WIDE else ""
@@ -369,12 +350,6 @@ def as_data(value: Any, name: str) -> str:
     return f'<script type="application/json" class="{name}">{as_script(value)}</script>'
 
 
-def as_script(value: Any) -> str:
-    """Plain data as a script reads it, without what could end that."""
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-
-
 def charts(made: Figure) -> list[dict[str, Any]]:
     """Panels with curves: box in the units of the SVG, ranges, curves, and over what they are, which cursors share."""
     height = 72.0 * made.get_figheight()
@@ -422,11 +397,11 @@ def _curve(axes: Axes, line: Line2D) -> dict[str, Any]:
     step = max(1, -(-len(x) // _MOST_POINTS))
     x, y = np.append(x[::step], x[-1:]), np.append(y[::step], y[-1:])
     label = str(line.get_label())
-    own = "" if label.startswith("_") else label.split(",")[0]
+    words = "" if label.startswith("_") else label.split(",")[0]
+    if not words:
+        axis = re.sub(r"\s*\[.*", "", str(axes.get_ylabel()))
+        words = axis.replace("-\n", "").replace("/\n", "/").replace("\n", " ")
     values = [float(f"{value:.6g}") if np.isfinite(value) else None for value in y.tolist()]
-    words = own or re.sub(r"\s*\[.*", "", str(axes.get_ylabel())).replace("-\n", "").replace("/\n", "/").replace(
-        "\n", " "
-    )
     return {"label": words, "color": str(line.get_color()), "x": [float(f"{v:.6g}") for v in x.tolist()], "y": values}
 
 
@@ -434,14 +409,9 @@ def _over(axes: Axes, panels: Sequence[Axes]) -> str:
     """The words of the x axis, of a panel above others those of the lowest below it."""
     if axes.get_xlabel():
         return str(axes.get_xlabel())
-    below = [
-        other
-        for other in panels
-        if other.get_xlabel()
-        and other.get_xlim() == axes.get_xlim()
-        and other.get_position().y0 < axes.get_position().y0
-    ]
-    return str(below[0].get_xlabel()) if below else "x"
+    alike = (other for other in panels if other.get_xlabel() and other.get_xlim() == axes.get_xlim())
+    below = (str(other.get_xlabel()) for other in alike if other.get_position().y0 < axes.get_position().y0)
+    return next(below, "x")
 
 
 def _unit(label: str) -> str:

@@ -120,7 +120,7 @@ def test_sheets_drawn_side_by_side_are_the_same(
 
 def test_limits_of_two_gears_are_lines_of_a_cell() -> None:
     """Four numbers side by side, which do not break, left the meanings a column of three words."""
-    page = "".join(sections._results(design("gear_pair").report("gear")))
+    page = sections.results(design("gear_pair").report("gear"))
     (cell,) = re.findall(r"<td>span measurement limits</td><td>[^<]*</td><td class=n>(.*?)</td>", page)
     assert [len(line.split()) for line in cell.split("<br>")] == [2, 2]
     widest = max(len(line) for cell in re.findall(r"<td class=n>(.*?)</td>", page) for line in cell.split("<br>"))
