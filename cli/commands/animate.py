@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING
 
@@ -16,10 +18,11 @@ from gearlink.cli.options import Options
 from gearlink.cli.progress import counted, patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
+from gearlink.cli.views.films.stage import Stage
+from gearlink.cli.views.scenes import shown
 from gearlink.cli.views.scenes.linkages import build, moves, moving_kinds, pictures_for
 
 if TYPE_CHECKING:
-    from gearlink.cli.views.films.stage import Stage
     from gearlink.cli.views.scenes.scene import Scene
     from gearlink.core.base.design import Design
 
@@ -49,7 +52,7 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
             ffmpeg()
         with patience(f"drawing {source}", quiet=options.quiet):
             design, scene = _scene(source, asked, options)
-            stage = _stage(design, scene, width, height)
+            stage = Stage(scene, design.spec.name, width, height)
             path = options.out / f"{safe_stem(design.spec.name)}-motion.{asked.format}"
             write_atomically(path, lambda stream: _write(stream, stage, asked, options))
     except (DesignFileError, CannotWrite) as error:
@@ -61,12 +64,8 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
 
 def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
     """The design of a file and its scene; whatever the mechanism refuses becomes a located error."""
-    from gearlink.cli.views.scenes import shown
-
-    try:
+    with _show_as_told():
         wanted = shown.wishes(asked.show)
-    except shown.WrongShow as error:
-        raise wrong_show(error) from None
     loaded, kind = open_design(source, options)
     if not moves(kind.name):
         raise wrong_kind(loaded, f"a {kind.name} does not move; kinds that do: {', '.join(moving_kinds())}")
@@ -77,25 +76,23 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
             count = pictures_for(build(design, np.arange(_PROBES) / _PROBES), asked.fps)
         else:
             count = max(2, round(asked.seconds * asked.fps))
-        try:
+        with _show_as_told():
             return design, shown.build(design, np.arange(count) / count, wanted, checks_of(kind, spec))
-        except shown.WrongShow as error:
-            raise wrong_show(error) from None
 
 
 def require_shown(design: Design, show: str) -> None:
     """Refuse what cannot be shown on a mechanism, before all else is made."""
-    from gearlink.cli.views.scenes import shown
-
-    try:
+    with _show_as_told():
         shown.build(design, np.array([0.0, 0.5]), shown.wishes(show))
+
+
+@contextmanager
+def _show_as_told() -> Iterator[None]:
+    """What `--show` asks for and cannot be had becomes an error of the command line."""
+    try:
+        yield
     except shown.WrongShow as error:
-        raise wrong_show(error) from None
-
-
-def wrong_show(error: Exception) -> DesignFileError:
-    """What `--show` asks for and cannot be had, as an error of the command line."""
-    return DesignFileError([Diagnostic("GL115", str(error), "<command line>", key="--show")])
+        raise DesignFileError([Diagnostic("GL115", str(error), "<command line>", key="--show")]) from None
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -108,27 +105,17 @@ def _size(text: str) -> tuple[int, int]:
     raise DesignFileError([Diagnostic("GL115", words, "<--size>", key=text)])
 
 
-def _stage(design: Design, scene: Scene, width: int, height: int) -> Stage:
-    from gearlink.cli.views.films.stage import Stage
-
-    return Stage(scene, design.spec.name, width, height)
-
-
 def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> None:
     if asked.format == "html":
         from gearlink.cli.views.films.page import page
 
         stream.write(page(stage, asked.fps).encode())
         return
-    from gearlink.cli.views.films.raster import Raster
+    from gearlink.cli.views.films.raster import Raster, write_gif, write_mp4
 
     raster, count = Raster(stage), stage.count
     pictures = counted(range(count), "drawing", quiet=options.quiet)
     if asked.format == "mp4":
-        from gearlink.cli.views.films.raster import write_mp4
-
         write_mp4(stream, raster, asked.fps, pictures)
     else:
-        from gearlink.cli.views.films.raster import write_gif
-
         write_gif(stream, raster, count, asked.fps, pictures)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
@@ -72,11 +73,19 @@ def run_chart(asked: Asked, options: Options) -> int:
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, asked.design or "<command line>", options)
     if marked is not None and marked.off_family > _LINK_TOLERANCE and not options.quiet:
-        print(_off_family(marked), file=sys.stderr)
+        of_family = "the curves hold for coupler = rocker = sqrt((crank^2 + frame^2)/2); the links of"
+        away = f"{100.0 * marked.off_family:.3g} % away from that, so its point need not lie on its curve"
+        print(f"note: {of_family} {marked.name} are {away}", file=sys.stderr)
     print_report(report, options)
 
+    return _drawn(lambda: write_chart(chart, report.tables[0], curves, marked, options), options)
+
+
+def _drawn(write: Callable[[], Path], options: Options) -> int:
+    """Write the picture where it is asked for, and say so."""
+
     def draw() -> None:
-        path = write_chart(chart, report.tables[0], curves, marked, options)
+        path = write()
         if not options.quiet:
             print(wrote(path), file=sys.stderr)
 
@@ -94,18 +103,20 @@ def _residual(asked: Asked, options: Options) -> int:
         name, found = _vibrations(asked, options)
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, asked.design or "<command line>", options)
-    tables = tuple(_vibration_table(each) for each in found)
-    print_report(Report("design-chart", f"residual, {name}", "chart", (), (), tables), options)
+    tables = []
+    for each in found:
+        columns: dict[str, tuple[Any, str]] = {"speed": (each.speed, each.unit), "periods": (each.periods, "1")}
+        columns |= {law: (values, "1") for law, values in each.residuals.items()}
+        tables.append(Table.of(each.path, columns))
+    print_report(Report("design-chart", f"residual, {name}", "chart", (), (), tuple(tables)), options)
 
-    def draw() -> None:
+    def write() -> Path:
         from gearlink.cli.views.figures.motion_laws import write_residuals
 
         finer = replace(asked, samples=max(asked.samples, _SMOOTH))
-        path = write_residuals(name, _vibrations(finer, options)[1], options)
-        if not options.quiet:
-            print(wrote(path), file=sys.stderr)
+        return write_residuals(name, _vibrations(finer, options)[1], options)
 
-    return written_beside(draw, "<--out>", options) if options.plot else ExitCode.OK
+    return _drawn(write, options)
 
 
 def _vibrations(asked: Asked, options: Options) -> tuple[str, list[Vibration]]:
@@ -127,11 +138,6 @@ def _vibrations(asked: Asked, options: Options) -> tuple[str, list[Vibration]]:
             fix = "give loads.vibration.frequency and the speed, or frequency and time of the law"
             raise NoSolution("no law of this file has natural periods", fix=fix)
     return spec.name, found
-
-
-def _vibration_table(found: Vibration) -> Table:
-    columns: dict[str, tuple[Any, str]] = {"speed": (found.speed, found.unit), "periods": (found.periods, "1")}
-    return Table.of(found.path, columns | {name: (values, "1") for name, values in found.residuals.items()})
 
 
 def _list_charts(options: Options) -> int:
@@ -164,11 +170,8 @@ def _with_device(chart: DesignChart, asked: Asked) -> DesignChart:
     if (device, stretch, ratio) == ("", None, None):
         return chart
     if chart.kind != "wide-swing-cam":
-        raise _wrong(
-            "--device",
-            device or chart.name,
-            f"not in the chart: the chart {chart.name} does not depend on an unloading device",
-        )
+        words = f"not in the chart: the chart {chart.name} does not depend on an unloading device"
+        raise _wrong("--device", device or chart.name, words)
     if device not in ("", "pneumatic", "spring"):
         raise _wrong("--device", device, "pneumatic or spring")
     if (device == "spring") != (stretch is not None):
@@ -177,16 +180,13 @@ def _with_device(chart: DesignChart, asked: Asked) -> DesignChart:
         raise _wrong("--stretch-ratio", f"{stretch:g}", "with --device spring")
     if ratio is not None and not ratio > 1.0:
         raise _wrong("--pivot-ratio", f"{ratio:g}", "above 1")
-    if asked.curves and ratio is not None and chart.parameter is not None and chart.parameter.name == "pivot_ratio":
+    by_ratio = chart.parameter is not None and chart.parameter.name == "pivot_ratio"
+    if asked.curves and ratio is not None and by_ratio:
         raise _wrong("--pivot-ratio", f"{ratio:g}", "omitted with --curves, which are pivot ratios")
-    given_keys = [("stretch_ratio", stretch)]
-    if chart.parameter is not None and chart.parameter.name != "pivot_ratio":
-        given_keys.append(("pivot_ratio", ratio))
-    given = tuple((key, value) for key, value in given_keys if value is not None)
-    title = (
-        f"{chart.title}, spring with mounting stretch {stretch:g} of its stroke" if device == "spring" else chart.title
-    )
-    return replace(chart, given=given, title=title)
+    asked_for = {"stretch_ratio": stretch, "pivot_ratio": None if by_ratio else ratio}
+    given = tuple((key, value) for key, value in asked_for.items() if value is not None)
+    more = f", spring with mounting stretch {stretch:g} of its stroke" if device == "spring" else ""
+    return replace(chart, given=given, title=chart.title + more)
 
 
 def _range(text: str, chart: DesignChart) -> tuple[float, float]:
@@ -272,40 +272,21 @@ def _located_swing(chart: DesignChart, design: Any) -> Marked:
 def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
     if design.crank_teeth != design.output_teeth:
         with at_key("gears.output"):
-            raise NoSolution(
-                "the charts hold for I = 1, equal teeth of crank and output gear: this design has "
-                f"{design.crank_teeth} and {design.output_teeth}",
-                fix=f"set gears.output to {design.crank_teeth}, or use analyze",
-            )
+            words = "the charts hold for I = 1, equal teeth of crank and output gear: this design has"
+            fix = f"set gears.output to {design.crank_teeth}, or use analyze"
+            raise NoSolution(f"{words} {design.crank_teeth} and {design.output_teeth}", fix=fix)
     place = chart.place(design)
     if place is None and chart.y.name == "tolerance_dwell_angle":
-        raise NoSolution(
-            (f"this design has no tolerance of its dwell, so it is not in the chart {chart.name}"),
-            key="dwell_tolerance",
-            fix="give dwell_tolerance",
-        )
+        words = f"this design has no tolerance of its dwell, so it is not in the chart {chart.name}"
+        raise NoSolution(words, key="dwell_tolerance", fix="give dwell_tolerance")
     if place is None:
-        raise NoSolution(
-            "the output of this design never steps back (minimum speed ratio "
-            f"{design.speed_ratio_min:.6g}), so it is not in the chart {chart.name}",
-            fix="shorten the frame, or use the chart nonuniformity",
-        )
+        why = f"never steps back (minimum speed ratio {design.speed_ratio_min:.6g})"
+        words = f"the output of this design {why}, so it is not in the chart {chart.name}"
+        raise NoSolution(words, fix="shorten the frame, or use the chart nonuniformity")
     family = design.crank_length * math.sqrt(0.5 * (1.0 + design.frame_ratio**2))
     names = ("i3", "frame_ratio", "back_step_crank_angle", "back_step_angle", "nonuniformity")
-    found = [design.quantity(name) for name in names]
-    return Marked(
-        design.spec.name,
-        place,
-        tuple(quantity for quantity in found if quantity is not None),
-        abs(design.coupler_length / family - 1.0),
-    )
-
-
-def _off_family(marked: Marked) -> str:
-    return (
-        f"note: the curves hold for coupler = rocker = sqrt((crank^2 + frame^2)/2); the links of {marked.name} are "
-        f"{100.0 * marked.off_family:.3g} % away from that, so its point need not lie on its curve"
-    )
+    found = tuple(each for name in names if (each := design.quantity(name)) is not None)
+    return Marked(design.spec.name, place, found, abs(design.coupler_length / family - 1.0))
 
 
 _COLORS = (style.BLUE, style.RED, style.GREEN, style.ORANGE, style.PURPLE, style.SKY, style.BLACK)
@@ -331,7 +312,9 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
     if marked is not None:
         _mark(axes, marked)
     if chart.parameter is not None or marked is not None:
-        _legend(axes, chart)
+        title = "" if chart.parameter is None else chart.parameter.words
+        place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0), "borderaxespad": 0.0}
+        axes.legend(frameon=False, fontsize=8.5, title=title, **place)
     return made
 
 
@@ -388,10 +371,3 @@ def _mark(axes: Axes, marked: Marked) -> None:
     left, bottom = axes.get_xlim()[0], axes.get_ylim()[0]
     axes.plot([left, x, x], [y, y, bottom], color=style.BLACK, linewidth=0.8, linestyle=(0, (4, 3)), zorder=5)
     axes.set_ylim(bottom=bottom)
-
-
-def _legend(axes: Axes, chart: DesignChart) -> None:
-    title = "" if chart.parameter is None else chart.parameter.words
-    axes.legend(
-        loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=8.5, title=title, borderaxespad=0.0
-    )

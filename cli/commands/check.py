@@ -174,7 +174,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     shown = [finding for finding in found if verbose or finding.status != "pass"]
     counts = {status: sum(finding.status == status for finding in found) for status in _STATUSES}
     if options.format is Format.JSON:
-        plain = [_plain(finding) | _help(finding) for finding in shown]
+        plain = [_plain(each) | ({"help": each.place.help} if each.place.help else {}) for each in shown]
         whole = {"gearlink": FORMAT, "command": "check", "ok": ok, "summary": {"designs": designs, **counts}}
         print(json_text({**whole, "findings": plain, **_as_results(found)}))
         return
@@ -182,12 +182,8 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
         from gearlink.cli.render.csv_report import write_rows
 
         rows = [
-            [
-                *list(_plain(finding).values())[:-2],
-                finding.place.fix or finding.place.help,
-                "; ".join(finding.place.note),
-            ]
-            for finding in shown
+            [*list(_plain(each).values())[:-2], each.place.fix or each.place.help, "; ".join(each.place.note)]
+            for each in shown
         ]
         write_rows([_HEADS, *rows], sys.stdout)
         return
@@ -218,11 +214,6 @@ def _plain(finding: Finding) -> dict[str, Any]:
     values = (place["file"], place["line"], place["column"], place["key"], finding.status, place["code"], name)
     fix, note = finding.place.fix or None, list(finding.place.note)
     return dict(zip(_HEADS, (*values, finding.command, value, limit, unit, place["message"], fix, note), strict=True))
-
-
-def _help(finding: Finding) -> dict[str, str]:
-    """What helps against an error, where that is known."""
-    return {"help": finding.place.help} if finding.place.help else {}
 
 
 def _as_text(shown: Sequence[Finding], verdict: str) -> str:

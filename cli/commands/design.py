@@ -30,25 +30,19 @@ from gearlink.core.base.report import Report
 from gearlink.core.base.results import observed
 
 if TYPE_CHECKING:
-    from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
-    from gearlink.core.base.kind import Kind
 
 
 def run_design(command: str, source: str, options: Options) -> int:
     """Run `command` on the design file `source`, print the result, and give the exit status."""
     if not options.profile:
-        return _run(command, source, options, _untimed)
+        return _run(command, source, options, lambda _: nullcontext())
 
     profile = Profile()
     try:
         return _run(command, source, options, profile.stage)
     finally:
         print("\n".join(profile.lines()), file=sys.stderr)
-
-
-def _untimed(_: str) -> AbstractContextManager[None]:
-    return nullcontext()
 
 
 def _run(command: str, source: str, options: Options, step: Callable[[str], AbstractContextManager[None]]) -> int:
@@ -63,7 +57,11 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
             kind.class_for(command, spec)
         with step("compute"), patience(f"computing {spec.name}", quiet=options.quiet):
             design, report = build(loaded, kind, command, spec, options, key_tables=options.brief)
-        saved = ExitCode.OK if options.save is None else _save(loaded, kind, command, design, options)
+        saved: int = ExitCode.OK
+        if options.save is not None:
+            from gearlink.cli.commands.save import save
+
+            saved = save(loaded, kind, command, design, options)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
     with step("print"):
@@ -113,12 +111,6 @@ def _before(options: Options) -> None:
         from gearlink.cli.commands.save import require_place
 
         require_place(options)
-
-
-def _save(loaded: LoadedFile, kind: Kind, command: str, design: Design, options: Options) -> int:
-    from gearlink.cli.commands.save import save
-
-    return save(loaded, kind, command, design, options)
 
 
 def plot(command: str, design: Design, options: Options, report: Report) -> None:

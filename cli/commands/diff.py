@@ -218,9 +218,8 @@ def compared(before: Side, after: Side, files: tuple[str, str], tolerance: float
     if bool(before.inputs) != bool(after.inputs):
         raise incomparable(new, "one file is a design, the other a result\ngive two designs or two results")
     if before.kind != after.kind:
-        raise incomparable(
-            new, f"a {before.kind} and a {after.kind} cannot be compared\ngive two files of the same kind"
-        )
+        words = f"a {before.kind} and a {after.kind} cannot be compared\ngive two files of the same kind"
+        raise incomparable(new, words)
     found = Difference(old, new, tolerance)
     units = {**before.units, **after.units}
     for path in _union(before.inputs, after.inputs):
@@ -249,7 +248,7 @@ def _results_as_gearlink_writes_them(file: str) -> Iterator[None]:
 def _side(file: str, options: Options) -> Side:
     data = read_result(file)
     if data is None:
-        return _design_side(file, options)
+        return side_of(*open_design(file, options))
     with _results_as_gearlink_writes_them(file):
         return _result_side(file, data)
 
@@ -258,10 +257,8 @@ def _result_side(file: str, data: dict[str, Any]) -> Side:
     """A result of a design command, or of a batch, whose designs are distinguished by their names."""
     several = isinstance(data.get("designs"), list)
     if not several and "quantities" not in data:
-        message = (
-            "this JSON contains errors, not a result" if "errors" in data else "no result of a design in this JSON"
-        )
-        raise incomparable(file, message)
+        errors = "this JSON contains errors, not a result"
+        raise incomparable(file, errors if "errors" in data else "no result of a design in this JSON")
     named: dict[str, dict[str, Any]] = {}
     for result in data["designs"] if several else [data]:
         name = f"{result['name']}: {result['command']}" if several else str(result["command"])
@@ -269,23 +266,20 @@ def _result_side(file: str, data: dict[str, Any]) -> Side:
     return Side("batch" if several else str(data["kind"]), {}, {}, named)
 
 
-def _design_side(file: str, options: Options) -> Side:
-    """A design file: its inputs with defaults filled in, and the results of the commands that it asks for."""
-    return side_of(*open_design(file, options))
-
-
 def side_of(loaded: LoadedFile, kind: Kind) -> Side:
-    """As a side of a comparison a design that has been read.
+    """A design that has been read: its inputs with defaults filled in, and the results of the commands it asks for.
 
     Raises
         DesignFileError - where it is refused
     """
+    from gearlink.cli.texts.schema import spec_keys
+
     spec = read_spec(loaded, kind, "-")  # named as it stands: names of files are no difference
     designs = {kind.class_for(command, spec): kind.design(command, spec) for command in spec.commands()}
     with refusals_located(loaded):
         results = {c: as_plain(_report(designs[kind.class_for(c, spec)], c)) for c in spec.commands()}
     inputs = dict(_flat("", spec.model_dump(mode="json", by_alias=True)))
-    return Side(kind.name, inputs, _units(kind), results)
+    return Side(kind.name, inputs, {key.path: key.unit for key in spec_keys(kind)}, results)
 
 
 def _report(design: Design, command: str) -> Report:
@@ -294,12 +288,6 @@ def _report(design: Design, command: str) -> Report:
     quantities = [quantity for name in outline.quantities if (quantity := design.quantity(name)) is not None]
     checks = [check for name in outline.checks for check in design.check(name)]
     return Report(design.kind, design.spec.name, command, tuple(quantities), tuple(checks))
-
-
-def _units(kind: Kind) -> dict[str, str]:
-    from gearlink.cli.texts.schema import spec_keys
-
-    return {key.path: key.unit for key in spec_keys(kind)}
 
 
 def _flat(path: str, value: Any) -> Iterator[tuple[str, Any]]:
@@ -389,9 +377,7 @@ def _numbered(checks: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
 
 def _changed_table(command: str, name: str, old: Any, new: Any, tolerance: float) -> Iterator[Change]:
     """For each column of a table the row that changed most; a table of another shape is one change."""
-    shapes = [
-        None if t is None else f"{amount(len(t['rows']), 'row')} of {', '.join(t['columns'])}" for t in (old, new)
-    ]
+    shapes = [t and f"{amount(len(t['rows']), 'row')} of {', '.join(t['columns'])}" for t in (old, new)]
     if shapes[0] != shapes[1]:
         yield Change(name, shapes[0], shapes[1], command=command)
         return
@@ -434,19 +420,11 @@ def show_difference(found: Difference, options: Options) -> None:
 def _plain(found: Difference) -> dict[str, Any]:
     head = {"gearlink": FORMAT, "command": "diff", "old": found.old, "new": found.new}
     head |= {"tolerance": found.tolerance, "equal": found.equal}
-    return head | {part: [_record(change) for change in getattr(found, part)] for part in _PARTS}
-
-
-def _record(change: Change) -> dict[str, Any]:
-    return {
-        "name": change.name,
-        "command": change.command,
-        "old": _plain_value(change.old),
-        "new": _plain_value(change.new),
-        "unit": change.unit,
-        "relative": change.relative,
-        "detail": change.detail,
+    keys = ("name", "command", "old", "new", "unit", "relative", "detail")
+    records = {
+        part: [{key: _plain_value(getattr(c, key)) for key in keys} for c in getattr(found, part)] for part in _PARTS
     }
+    return head | records
 
 
 def _plain_value(value: Any) -> Any:
@@ -500,10 +478,15 @@ def _as_markdown(found: Difference) -> str:
 
 def _show(found: Difference, options: Options) -> None:
     from gearlink.cli.render.numbers import number
-    from gearlink.cli.render.terminal import console_for, room_for_names, show_grid
+    from gearlink.cli.render.terminal import console_for, folded, room_for_names, show_grid
+
+    def broken(text: str) -> str:
+        """Words of a value, those that are long broken within."""
+        return " ".join(folded(word, _WORD) for word in text.split())
 
     console = console_for(options)
-    for part, told in parts_of(found, partial(number, digits=_digits(options))):
+    digits = 9 if options.digits is None else options.digits  # by default as many as show a change that counts
+    for part, told in parts_of(found, partial(number, digits=17 if isinstance(digits, str) else digits)):
         rows = [tuple(map(visible, row)) for row in told]
         grid = _grid(part, rows, console)
         if room_for_names(grid, console) >= max(len(row[0]) for row in rows):
@@ -513,26 +496,12 @@ def _show(found: Difference, options: Options) -> None:
         # Names and words on several lines, and the command above its rows.
         commands = list(dict.fromkeys(row[-1] for row in rows))
         for command in commands:
-            own = [(row[0], *(_broken(text) for text in row[1:3]), *row[3:]) for row in rows if row[-1] == command]
+            own = [(row[0], *map(broken, row[1:3]), *row[3:]) for row in rows if row[-1] == command]
             head = part if len(commands) == 1 else f"{part} of {command}"
             room = max(_NAME, room_for_names(_grid(head, own, console), console))
             show_grid(_grid(head, own, console, room), console)
             console.print()
     print(_verdict(found))
-
-
-def _digits(options: Options) -> int:
-    """Significant digits of values: by default as many as show a change that counts."""
-    if options.digits is None:
-        return 9
-    return 17 if isinstance(options.digits, str) else options.digits
-
-
-def _broken(text: str) -> str:
-    """Words of a value, those that are long broken within."""
-    from gearlink.cli.render.terminal import folded
-
-    return " ".join(folded(word, _WORD) for word in text.split())
 
 
 def _grid(head: str, rows: Sequence[Sequence[str]], console: Console, room: int | None = None) -> Grid:
@@ -549,9 +518,8 @@ def _grid(head: str, rows: Sequence[Sequence[str]], console: Console, room: int 
     for i in shown:
         # Words and members of a list may stand on lines of their own, a number and its per cent sign not.
         whole = heads[i] in (head, "unit") or (heads[i] == "change" and all(len(row[i]) <= _PERCENT for row in rows))
-        grid.add_column(
-            heads[i], justify="right" if heads[i] in ("old", "new") else "left", no_wrap=whole, overflow="fold"
-        )
+        side: Any = "right" if heads[i] in ("old", "new") else "left"
+        grid.add_column(heads[i], justify=side, no_wrap=whole, overflow="fold")
     for name, *others in ([row[i] for i in shown] for row in rows):
         grid.add_row(Text(name if room is None else folded(name, room)), *map(Text, others))
     return grid

@@ -115,6 +115,11 @@ class Topic:
     paragraphs: dict[str, str]
 
 
+def _topic(about: str, name: str, title: str, told: dict[str, str]) -> Topic:
+    """A topic with the paragraphs that have words."""
+    return Topic(about, name, title, {label: words for label, words in told.items() if words})
+
+
 def run_explain(subject: str | None, format: Format) -> int:
     """Print what `subject` means, or the list of codes; give the exit status."""
     topics = find(subject) if subject is not None else []
@@ -164,7 +169,7 @@ def _events(subject: str) -> Iterator[Topic]:
         return
     told = {"Written": f"MEMBER.{name}, in the lines of require: feed.{name} before 180", "Of several": more}
     told |= {"Kinds": "machine", "See also": "`gearlink new machine`"}
-    yield Topic("event", name, title, {label: words for label, words in told.items() if words})
+    yield _topic("event", name, title, told)
 
 
 def _inner(subject: str) -> Iterator[Topic]:
@@ -186,7 +191,7 @@ def _inner(subject: str) -> Iterator[Topic]:
 def _inner_key(key: InnerKey) -> Topic:
     told = {"Unit": key.unit, "Values": ", ".join(key.choices), "Kinds": ", ".join(key.kinds)}
     title = f"key of a design file: {key.words or 'says what its section is'}"
-    return Topic("key", key.path, title, {label: words for label, words in told.items() if words})
+    return _topic("key", key.path, title, told)
 
 
 def _of_entries(path: str) -> Iterator[Topic]:
@@ -197,8 +202,8 @@ def _of_entries(path: str) -> Iterator[Topic]:
             yield _inner_key(key)
 
 
-def mentioned(subject: str, most: int = 4) -> list[str]:
-    """Names in whose texts all words of a subject stand, the shortest texts first."""
+def mentioned(subject: str) -> list[str]:
+    """Four names in whose texts all words of a subject stand, the shortest texts first."""
     from gearlink.cli.glossary import glossary
     from gearlink.cli.texts.codes import explanations
     from gearlink.core.base.nomenclature import TERMS
@@ -209,7 +214,7 @@ def mentioned(subject: str, most: int = 4) -> list[str]:
     texts |= {code: f"{text.title} {text.what}" for code, text in explanations().items()}
     asked = [re.compile(rf"\b{re.escape(word.removesuffix('s'))}s?\b") for word in subject.lower().split()]
     found = [(len(text), name) for name, text in texts.items() if all(word.search(text.lower()) for word in asked)]
-    return list(dict.fromkeys(name for _, name in sorted(found)))[:most]
+    return list(dict.fromkeys(name for _, name in sorted(found)))[:4]
 
 
 _FILLING = {"of", "the", "a", "an", "in", "for", "at", "on"}
@@ -332,7 +337,7 @@ def _keys(name: str) -> Iterator[Topic]:
         told |= {"Alias": ", ".join(key.also)}
         told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in the file"}
         title = f"key of a design file: {words or 'a section'}"
-        yield Topic("key", key.path, title, {k: v for k, v in told.items() if v})
+        yield _topic("key", key.path, title, told)
         found = True
     if "." in name and not found:
         yield from _of_entries(name)
@@ -370,7 +375,7 @@ def _term(term: Concept) -> Topic:
     program = {"Keys": term.keys, "Quantities": term.quantities, "Checks": term.checks, "Kinds": term.kinds}
     told = {label: ", ".join(words) for label, words in (names | program).items()}
     told |= {"Figure": f"`{term.picture}`" if term.picture else "", "See also": ", ".join(term.see)}
-    return Topic("term", term.name, term.definition, {label: words for label, words in told.items() if words})
+    return _topic("term", term.name, term.definition, told)
 
 
 _CITED = {
@@ -391,30 +396,27 @@ def _place(label: str, place: Place) -> Topic:
     given = [name for name, _, term in entries() if source in term.source and cited.search(term.source)]
     told = {"Kinds": ", ".join(place.kinds), "Commands": ", ".join(f"gearlink {name}" for name in place.commands)}
     told |= {"Quantities": ", ".join(given)}
-    return Topic("place", f"{place.source}, {shown}", place.says, {k: words for k, words in told.items() if words})
+    return _topic("place", f"{place.source}, {shown}", place.says, told)
 
 
 def _meaning(word: str, meaning: Meaning) -> Topic:
     where = ", ".join(meaning.kinds) or f"the section {meaning.section}"
     told = {"Keys": ", ".join(meaning.keys), "Quantities": ", ".join(meaning.quantities), "How": meaning.says}
-    return Topic("word", word, f"in {where}: {meaning.means}", {k: words for k, words in told.items() if words})
+    return _topic("word", word, f"in {where}: {meaning.means}", told)
 
 
 # Codes and checks
 
 
 def _code(text: Rule) -> Topic:
-    paragraphs = {label: getattr(text, field) for field, label in _LABELS.items() if getattr(text, field)}
-    if text.checks:
-        paragraphs["Checks"] = ", ".join(text.checks)
-        paragraphs["Kinds"] = _kinds_with_checks(text.checks)
-    return Topic("code", text.code, text.title, {label: words for label, words in paragraphs.items() if words})
+    told = {label: getattr(text, field) for field, label in _LABELS.items()}
+    told |= {"Checks": ", ".join(text.checks), "Kinds": _kinds_with_checks(text.checks)}
+    return _topic("code", text.code, text.title, told)
 
 
 def _check(name: str, text: Rule) -> Topic:
-    topic = _code(text)
-    paragraphs = {**topic.paragraphs, "Checks": name, "Kinds": _kinds_with_checks((name,))}
-    return Topic("check", name, f"{text.title} ({text.code})", {k: v for k, v in paragraphs.items() if v})
+    told = {**_code(text).paragraphs, "Checks": name, "Kinds": _kinds_with_checks((name,))}
+    return _topic("check", name, f"{text.title} ({text.code})", told)
 
 
 def _kinds_with_checks(checks: tuple[str, ...]) -> str:
@@ -432,11 +434,13 @@ def _quantity(name: str) -> Topic:
     from gearlink.core.base.nomenclature import ALIASES, entries, term
 
     entry = term(name)
+    usual = entry.unit if entry.unit != "1" else "1 (no dimension)"
+    own_units = (f"{unit} ({', '.join(kinds)})" for unit, kinds in index().units.get(name, {}).items())
     paragraphs = {
         "Meaning": entry.words,
         "Symbol": entry.symbol,
         "Alias": ", ".join(alias for alias, fixed in ALIASES.items() if fixed == name),
-        "Unit": "; ".join(_units(name, entry.unit)),
+        "Unit": "; ".join([usual, *own_units]),
         "Formula": FORMULAS.get(name, ""),
         "Source": entry.source,
         "Given by": "; ".join(index().quantities[name]),
@@ -444,13 +448,7 @@ def _quantity(name: str) -> Topic:
     for each, kind, own in entries():
         if kind and each == name:
             paragraphs[f"In {kind}"] = f"{own.words}{f' ({own.symbol})' if own.symbol else ''}"
-    return Topic("quantity", name, entry.words, {label: words for label, words in paragraphs.items() if words})
-
-
-def _units(name: str, usual: str) -> Iterator[str]:
-    """The unit of a quantity, and those that it has in the designs of some kinds."""
-    yield usual if usual != "1" else "1 (no dimension)"
-    yield from (f"{unit} ({', '.join(kinds)})" for unit, kinds in index().units.get(name, {}).items())
+    return _topic("quantity", name, entry.words, paragraphs)
 
 
 # Kinds and laws
@@ -465,7 +463,7 @@ def _kind(kind: Kind) -> Topic:
         "Takes": ", ".join(key.path for key in keys if not key.required),
         "See also": f"`gearlink new {kind.name}` prints a design that runs, `gearlink schema {kind.name}` every key.",
     }
-    return Topic("kind", kind.name, "kind of design", {k: v for k, v in paragraphs.items() if v})
+    return _topic("kind", kind.name, "kind of design", paragraphs)
 
 
 def _law(name: str) -> Topic:
@@ -475,32 +473,20 @@ def _law(name: str) -> Topic:
     peaks = [("velocity Cv", found.peak_velocity), ("acceleration Ca", found.peak_acceleration)]
     peaks += [("jerk Cj", found.peak_jerk), ("power Cm", found.peak_power)]
     rest = found.kind == "rest-to-rest"
-    what = (
-        "Goes from rest to rest: rise 1 over x from 0 to 1."
-        if rest
-        else "Goes from rest to speed 1 over x from 0 to 1."
-    )
-    joins = (
-        "no: its acceleration is not zero at an end" if found.end_jumps else "yes: its acceleration is zero at the ends"
-    )
+    goes = "rest: rise 1" if rest else "speed 1"
+    smooth = "yes: its acceleration is zero at the ends"
+    use = next((prefix for prefix in ("half-", "velocity-") if name.startswith(prefix)), "")
+    plain = name.removeprefix(use)
     paragraphs = {
-        "What": what,
-        "Formula": _law_formula(name.removeprefix(_use(name))) + _LAW_USE[_use(name)],
+        "What": f"Goes from rest to {goes} over x from 0 to 1.",
+        "Formula": (_MCV if plain.startswith("mcv-") else _LAW_FORMULAS[plain]) + _LAW_USE[use],
         "Peaks": ", ".join(f"{words} {value:.6g}" for words, value in peaks),
-        "Joins a dwell": joins,
+        "Joins a dwell": "no: its acceleration is not zero at an end" if found.end_jumps else smooth,
         "Source": "VDI 2143; SCCA family: own derivation",
     }
     if not rest:
         paragraphs["Share"] = f"the rise is kappa = {found.kappa:.6g} times (end speed) x (time)"
     return Topic("law", name, f"motion law, {found.kind}", paragraphs)
-
-
-def _law_formula(name: str) -> str:
-    return _MCV if name.startswith("mcv-") else _LAW_FORMULAS[name]
-
-
-def _use(name: str) -> str:
-    return next((prefix for prefix in ("half-", "velocity-") if name.startswith(prefix)), "")
 
 
 _LAW_USE = {
@@ -537,10 +523,8 @@ def _repeats(label: str, words: str, topic: Topic) -> bool:
 
 def _as_markdown(topic: Topic) -> str:
     parts = [f"# {topic.name}: {topic.title}"]
-    parts += [
-        f"**{label}:** " + (f"`{words}`" if label in ("Formula", "Symbol") else words)
-        for label, words in topic.paragraphs.items()
-    ]
+    for label, words in topic.paragraphs.items():
+        parts.append(f"**{label}:** " + (f"`{words}`" if label in ("Formula", "Symbol") else words))
     return "\n\n".join(parts)
 
 

@@ -13,7 +13,6 @@ from gearlink.cli.options import Options
 from gearlink.cli.typer_options import takes
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Table
     from gearlink.core.parts.gears.shifts.search import Carried, PairTask
 
 
@@ -89,10 +88,11 @@ def gears(
     carried = None
     if torque is not None or speed is not None:
         if torque is None or speed is None:
-            raise typer.BadParameter(
-                "a load needs both torque and speed", param_hint="--speed" if torque else "--torque"
-            )
-        carried = _carried(torque, speed, life, material, application, grade, vg, crowned, width_ratio)
+            missing = "--speed" if torque else "--torque"
+            raise typer.BadParameter("a load needs both torque and speed", param_hint=missing)
+        load: dict[str, Any] = {"torque": torque, "speed": speed, "life": life, "application": application}
+        gearing = {"grade": grade, "viscosity": vg, "crowned": crowned, "width_ratio": width_ratio}
+        carried = _carried(material, **load, **gearing)
     if center_distance is None and carried is None:
         raise typer.BadParameter("give it, or --torque and --speed to find the minimum", param_hint="--center-distance")
 
@@ -107,13 +107,12 @@ def gears(
         least_teeth=least_teeth,
     )
     if internal and ratio <= 1.0:
-        raise typer.BadParameter(
-            "a ring gear has more teeth than its pinion\ngive a ratio above 1", param_hint="--ratio"
-        )
+        words = "a ring gear has more teeth than its pinion\ngive a ratio above 1"
+        raise typer.BadParameter(words, param_hint="--ratio")
     raise typer.Exit(run_gears(task, options, carried, sought=center_distance is None))
 
 
-def _carried(torque: float, speed: float, life: float, material: str, *rest: Any) -> Carried:
+def _carried(material: str, **conditions: Any) -> Carried:
     """What the pairs carry; a material by its name, or one for each gear."""
     from gearlink.core.parts.gears.rating.materials import CLASSES, MATERIALS, STEELS
     from gearlink.core.parts.gears.shifts.search import Carried
@@ -130,21 +129,9 @@ def _carried(torque: float, speed: float, life: float, material: str, *rest: Any
             text = f"the strength of {name} depends on its hardness\ngive a steel: {', '.join(STEELS)}"
             raise typer.BadParameter(text, param_hint="--material")
     if len(names) > 2:
-        raise typer.BadParameter(
-            f"{len(names)} materials for 2 gears\ngive one steel, or one for each gear", param_hint="--material"
-        )
-    application, grade, vg, crowned, width_ratio = rest
-    return Carried(
-        torque=torque,
-        speed=speed,
-        life=life,
-        materials=(names[0], names[-1]),
-        application=application,
-        grade=grade,
-        viscosity=vg,
-        crowned=crowned,
-        width_ratio=width_ratio,
-    )
+        words = f"{len(names)} materials for 2 gears\ngive one steel, or one for each gear"
+        raise typer.BadParameter(words, param_hint="--material")
+    return Carried(materials=(names[0], names[-1]), **conditions)
 
 
 def run_gears(task: PairTask, options: Options, carried: Carried | None = None, *, sought: bool = False) -> int:
@@ -155,11 +142,14 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
     from gearlink.cli.progress import patience
     from gearlink.core.base.report import Report
     from gearlink.core.base.wording import amount
-    from gearlink.core.parts.gears.shifts.search import candidates, table_of
+    from gearlink.core.parts.gears.shifts.search import candidates, carrying, rated_table, smallest, table_of
 
     with patience("searching for gears", quiet=options.quiet):
-        table = table_of(candidates(task)) if carried is None else _rated(task, carried, sought)
-    shown = _first(table, _BEST) if options.brief else table
+        if carried is None:
+            table = table_of(candidates(task))
+        else:  # the pairs that carry the load, at the given centre distance or the smallest one
+            table = rated_table(smallest(task, carried)[1] if sought else carrying(task, carried))
+    shown = replace(table, data=tuple(each[:_BEST] for each in table.data)) if options.brief else table
     print_report(Report(kind="gear-search", name="gears", command="gears", tables=(shown,)), options)
     if table.length > shown.length:
         print(f"{amount(table.length - shown.length, 'more pair')}: --all")
@@ -168,25 +158,10 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
             print("no pair is within all limits (margin < 0): widen --shift-sum", file=sys.stderr)
         return ExitCode.OK
     if not options.quiet:
-        remedy = (
-            _remedy(task)
-            if carried is None
-            else "increase --center-distance or --width-ratio, or name a better --material"
-        )
+        remedy = "increase --center-distance or --width-ratio, or name a better --material"
+        remedy = _remedy(task) if carried is None else remedy
         print(f"no pair meets these conditions: {remedy}", file=sys.stderr)
     return ExitCode.FINDING
-
-
-def _first(table: Table, count: int) -> Table:
-    """The first rows of a table."""
-    return replace(table, data=tuple(column[:count] for column in table.data))
-
-
-def _rated(task: PairTask, carried: Carried, sought: bool) -> Table:
-    """The table of the pairs that carry the load, at the given centre distance or the smallest one."""
-    from gearlink.core.parts.gears.shifts.search import carrying, rated_table, smallest
-
-    return rated_table(smallest(task, carried)[1] if sought else carrying(task, carried))
 
 
 def _remedy(task: PairTask) -> str:
@@ -207,9 +182,8 @@ def _window(text: str, internal: bool) -> tuple[float, float]:
         return (-1.0, 0.5) if internal else (-0.5, 1.0)
     numbers = _numbers(text, ":", "--shift-sum")
     if len(numbers) != 2 or numbers[0] > numbers[1]:
-        raise typer.BadParameter(
-            f"{text!r} is not MIN:MAX with MIN below MAX, such as -0.5:1", param_hint="--shift-sum"
-        )
+        words = f"{text!r} is not MIN:MAX with MIN below MAX, such as -0.5:1"
+        raise typer.BadParameter(words, param_hint="--shift-sum")
     return numbers[0], numbers[1]
 
 
@@ -217,9 +191,8 @@ def _numbers(text: str, sign: str, option: str) -> tuple[float, ...]:
     try:
         numbers = tuple(float(part) for part in text.split(sign) if part.strip())
     except ValueError:
-        words = (
-            f"{text!r} contains something other than numbers\nwrite numbers with {sign} between them, such as 2{sign}3"
-        )
+        fix = f"write numbers with {sign} between them, such as 2{sign}3"
+        words = f"{text!r} contains something other than numbers\n{fix}"
         raise typer.BadParameter(words, param_hint=option) from None
     least, most = (1e-3, 1e3) if option == "--modules" else (-10.0, 10.0)
     if not all(least <= number <= most for number in numbers):

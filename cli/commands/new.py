@@ -66,9 +66,12 @@ def template(kind: Kind, name: str = "") -> str:
     Raises
         LookupError - for a kind without an example in `gearlink.designs`
     """
+    from gearlink.cli.texts.written_design import written
+
     worked = design = worked_design(kind)
-    if kind.name in KINDS:
-        design = _explained(kind, worked, name)
+    if kind.name in KINDS:  # under another name, every key with its unit, its meaning and who chooses it
+        rest = {key: value for key, value in _read(worked).items() if key not in ("kind", "name")}
+        design = written(kind, {"kind": kind.name, **({"name": name} if name else {}), **rest})
     asked = index().first_commands[kind.name]
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
@@ -78,16 +81,6 @@ def template(kind: Kind, name: str = "") -> str:
     )
     warned = "".join(f"{line}\n" for line in worked.splitlines() if design != worked and _WARNED.match(line))
     return f"{head}{warned}\n" + design.rstrip("\n") + "\n" + _left_out(kind, design)
-
-
-def _explained(kind: Kind, text: str, name: str) -> str:
-    """An example under another name, every key with its unit, its meaning and who chooses it."""
-    from gearlink.cli.texts.written_design import written
-
-    data = _read(text)
-    named = {"name": name} if name else {}
-    rest = {key: value for key, value in data.items() if key not in ("kind", "name")}
-    return written(kind, {"kind": kind.name, **named, **rest})
 
 
 def _read(text: str) -> Any:

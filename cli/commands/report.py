@@ -41,10 +41,6 @@ _TASKS: list[tuple[Make, int]] = []
 """What forked processes make, and where they read which is next: they need no way to it."""
 
 
-class _Refused(GearlinkError):
-    """Some piece cannot be made; the other processes need not go on."""
-
-
 def side_by_side(make: Make, count: int) -> list[Any] | None:
     """`make` of 0 to count - 1, the first in this process, the others where one is free, the last of them first.
 
@@ -73,7 +69,7 @@ def side_by_side(make: Make, count: int) -> list[Any] | None:
             for other in others:
                 found |= other.result()
             if len(found) < count:
-                raise _Refused("a piece cannot be made")
+                raise GearlinkError("a piece cannot be made")  # the other processes need not go on
     except (GearlinkError, BrokenExecutor):
         return None
     finally:
@@ -187,7 +183,7 @@ def _built(
     study: Any = designs.of(command) if command == "tolerance" else None
     if study is not None and not study.is_short:
         return None
-    asked = options._replace(tables=_tables(kind, command, spec))
+    asked = options._replace(tables=kind.design_class(command).tables_of_page(command, spec))
     return build(loaded, kind, command, spec, asked, designs=designs)
 
 
@@ -217,12 +213,6 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options, show:
     return [section for section in made if section is not None]
 
 
-def _tables(kind: Kind, command: str, spec: Any) -> tuple[str, ...]:
-    """The extra tables of a command on the page."""
-    shown: tuple[str, ...] = kind.design_class(command).tables_of_page(command, spec)
-    return shown
-
-
 def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
     """Register budget and tolerance study of a file that has them; samples that take long have their own command."""
     if getattr(spec, "tolerance", None) is None:
@@ -235,13 +225,12 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
 def _section(part: Part | None, show: str | None) -> Section | None:
     """A command on the page; with the film where it is said what that shows."""
     from gearlink.cli.views.page import sections
-    from gearlink.cli.views.page.sections import sheet
 
     if part is None:
         return None
     design, report = part
     film = "" if show is None else sections.film(design, show=show, checks=report.checks)
-    drawn = sheet(report.command, design, report.checks)
+    drawn = sections.sheet(report.command, design, report.checks)
     return Section(replace(report, tables=()), film, drawn, sections.results(report))
 
 

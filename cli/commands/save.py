@@ -130,7 +130,8 @@ def complete(
     """
     data = _ordered(design.spec.model_dump(mode="json", exclude_unset=True, by_alias=True), loaded.data)
     notes = {".".join(map(str, o.path)): f"from {o.source.file.strip('<>')}" for o in loaded.overrides}
-    notes |= {change.path: f"was {_shown(change.old)}: --suggest" for change in changes if change.new is not None}
+    for change in (each for each in changes if each.new is not None):
+        notes[change.path] = f"was {'not given' if change.old is None else flow(change.old)}: --suggest"
     left_out, units = [], {key.path: key.unit for key in spec_keys(kind)}
     for found in design.completion():
         if found.value is None:
@@ -194,9 +195,8 @@ def _rounded(value: Any, path: str, units: Mapping[str, str], step: float | None
     """A value, or a section of values, with its lengths rounded; and what is to be said of the rounding, by path."""
     if isinstance(value, Mapping):
         parts = {key: _rounded(inner, f"{path}.{key}", units, step) for key, inner in value.items()}
-        return {key: part for key, (part, _) in parts.items()}, {
-            p: w for _, words in parts.values() for p, w in words.items()
-        }
+        words = {place: word for _, told in parts.values() for place, word in told.items()}
+        return {key: part for key, (part, _) in parts.items()}, words
     if step is None or units.get(path) != "mm" or not isinstance(value, float):
         return value, {path: ""}
     digits = max(0, 1 - math.floor(math.log10(step)))
@@ -212,7 +212,3 @@ def _ordered(data: Mapping[str, Any], order: Mapping[str, Any]) -> dict[str, Any
         else data[key]
         for key in keys
     }
-
-
-def _shown(value: Any) -> str:
-    return "not given" if value is None else flow(value)

@@ -191,37 +191,30 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         DesignFileError - for a scale where there are no disc cams
     """
     from gearlink.cli.views.figures import loads, tolerance
-    from gearlink.cli.views.figures.sheets import (
-        cam_sheets,
-        motion_sheet,
-        part_drawing,
-        timing_sheet,
-        true_size,
-        vector_sheet,
-    )
+    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, part_drawing, timing_sheet, true_size
+    from gearlink.cli.views.figures.sheets import vector_sheet as vectors
 
+    kind, cams = KINDS[design.kind], cam_sheets.discs(design)
     found: Makers = {}
     if motion_sheet.courses(design):
-        found["motion"] = lambda: motion_sheet.draw(design)
-    if "vectors" in KINDS[design.kind].all_sheets and vector_sheet.draws(design):
-        found["vectors"] = lambda: vector_sheet.draw(design, at, show)
-    if "forces" in KINDS[design.kind].all_sheets and loads.draws(design):
-        found["forces"] = lambda: loads.draw_forces(design)
-    if "dwell" in KINDS[design.kind].all_sheets and motion_sheet.dwell_of(design) is not None:
-        found["dwell"] = lambda: motion_sheet.dwell(design)
+        found["motion"] = partial(motion_sheet.draw, design)
+    if "vectors" in kind.all_sheets and vectors.draws(design):
+        found["vectors"] = partial(vectors.draw, design, at, show)
+    if "forces" in kind.all_sheets and loads.draws(design):
+        found["forces"] = partial(loads.draw_forces, design)
+    if "dwell" in kind.all_sheets and motion_sheet.dwell_of(design) is not None:
+        found["dwell"] = partial(motion_sheet.dwell, design)
     if motion_sheet.has_zone(design):
-        found["zone"] = lambda: motion_sheet.zone(design)
+        found["zone"] = partial(motion_sheet.zone, design)
     if tolerance.study_of(design) is not None:
-        found["tornado"] = lambda: tolerance.draw_tornado(design)
-    if "timing" in KINDS[design.kind].sheets:
-        found["timing"] = lambda: timing_sheet.draw(design)
-    for name, place in KINDS[design.kind].sheets.items():
-        if name not in _ALIKE and place:
-            found[name] = lambda place=place: load(place)(design)  # type: ignore[misc]
-    cams = cam_sheets.discs(design)
-    if cams and "pressure" in KINDS[design.kind].sheets and cam_sheets.touching(cams[0]) != "face":
-        found["pressure"] = lambda: cam_sheets.pressure(design)
-        found["contact"] = lambda: motion_sheet.contact(design)
+        found["tornado"] = partial(tolerance.draw_tornado, design)
+    if "timing" in kind.sheets:
+        found["timing"] = partial(timing_sheet.draw, design)
+    own = {name: place for name, place in kind.sheets.items() if name not in _ALIKE and place}
+    found |= {name: partial(load(place), design) for name, place in own.items()}
+    if cams and "pressure" in kind.sheets and cam_sheets.touching(cams[0]) != "face":
+        found["pressure"] = partial(cam_sheets.pressure, design)
+        found["contact"] = partial(motion_sheet.contact, design)
     if scale is not None and not cams:
         message = f"--scale is for drawings of disc cams, of which this {design.kind} has none\nomit --scale"
         raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--scale")])

@@ -7,7 +7,7 @@ import io
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.design import plotted, print_report
@@ -60,9 +60,8 @@ def run_suggested(command: str, source: str, options: Options) -> int:
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
         spec = read_spec(loaded, kind, source)
-        with progress(
-            _ROUNDS, f"searching for changes with which all checks of {spec.name} pass", quiet=options.quiet
-        ) as advance:
+        words = f"searching for changes with which all checks of {spec.name} pass"
+        with progress(_ROUNDS, words, quiet=options.quiet) as advance:
             repaired, changes = repair(kind, command, spec, strict=options.strict, advance=advance)
             design, report = build(loaded, kind, command, repaired, options, key_tables=options.brief)
         if options.save is not None:
@@ -142,18 +141,13 @@ def _steps(
             yield remedy, check.message
 
 
-def _as_plain(changes: Sequence[Change]) -> list[dict[str, Any]]:
-    return [{"path": c.path, "old": c.old, "new": c.new, "why": c.why} for c in changes]
-
-
 def _print(changes: Sequence[Change] | None, report: Report, options: Options) -> None:
     if options.save == STREAM:  # the design stands there, so that nothing else may
         if not options.quiet:
             print(_as_text(changes, options), file=sys.stderr)
         return
     if options.format is Format.JSON:
-        whole = as_plain(report) | {"suggestions": _as_plain(changes or ())}
-        print(json_text(whole))
+        print(json_text(as_plain(report) | {"suggestions": list(map(asdict, changes or ()))}))
         return
     text = _as_text(changes, options)
     if options.format is Format.TABLE and options.quantities:
@@ -174,11 +168,8 @@ def _as_text(changes: Sequence[Change] | None, options: Options) -> str:
         return stream.getvalue()
     if options.format is Format.MARKDOWN:
         rows = [(f"`{c.path}`", _shown(c.old), _shown(c.new), c.why) for c in changes]
-        return (
-            f"## Suggestions\n\n{markdown_table(('change', 'old', 'new', 'why'), rows)}\n\n`{overrides(changes)}`\n"
-            if changes
-            else f"## Suggestions\n\n{nothing}\n"
-        )
+        table = f"{markdown_table(('change', 'old', 'new', 'why'), rows)}\n\n`{overrides(changes)}`"
+        return f"## Suggestions\n\n{table if changes else nothing}\n"
     if not changes:
         return f"suggestions: {nothing}\n"
     lines = [f"  {c.path}: {_shown(c.old)} -> {_shown(c.new)}    {c.why}" for c in changes]

@@ -246,9 +246,6 @@ def _at(value: Any, places: tuple[int, ...]) -> Any:
     return value
 
 
-_FILE = "<command line>"
-
-
 def run_verify(prefixes: Sequence[str], options: Options, *, everything: bool = False) -> int:
     """Compute the cases that begin with one of some prefixes, without a prefix all, and give the exit status.
 
@@ -277,17 +274,9 @@ def run_verify(prefixes: Sequence[str], options: Options, *, everything: bool = 
 def _unknown(prefixes: Sequence[str], ids: Sequence[str]) -> list[Diagnostic]:
     from gearlink.cli.reading.diagnostics import Diagnostic
 
-    return [
-        Diagnostic(
-            "GL115",
-            f"no case begins with {named(prefix)}",
-            _FILE,
-            key=prefix,
-            help=f"cases begin with: {', '.join(names())}",
-        )
-        for prefix in dict.fromkeys(prefixes)
-        if not any(each.startswith(prefix.lower()) for each in ids)
-    ]
+    unknown = [each for each in dict.fromkeys(prefixes) if not any(name.startswith(each.lower()) for name in ids)]
+    known, where = f"cases begin with: {', '.join(names())}", "<command line>"
+    return [Diagnostic("GL115", f"no case begins with {named(each)}", where, key=each, help=known) for each in unknown]
 
 
 _NO_UNIT = "1"

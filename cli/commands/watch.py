@@ -134,9 +134,8 @@ def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
     try:
         server = _Server((LOOPBACK, port), _handler(board, shell))
     except OSError as error:
-        raise CannotWrite(
-            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}\ngive another --port"
-        ) from error
+        words = f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}\ngive another --port"
+        raise CannotWrite(words) from error
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
     thread.start()
     try:
@@ -190,7 +189,7 @@ def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHand
             if not self._local():
                 self.send_error(HTTPStatus.FORBIDDEN)
             elif self.path == "/":
-                self._answer(shell().encode(), "text/html; charset=utf-8")
+                self._answer(shell().encode())
             elif self.path == "/events":
                 self._events()
             elif self.path == "/favicon.ico":  # every browser asks for one
@@ -203,9 +202,9 @@ def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHand
             port = self.server.server_address[1]  # type: ignore[index]
             return is_asked_locally(int(port), *(self.headers.get_all(name, []) for name in ("Host", "Origin")))
 
-        def _answer(self, data: bytes, kind: str) -> None:
+        def _answer(self, data: bytes) -> None:
             self.send_response(HTTPStatus.OK)
-            self.send_header("Content-Type", kind)
+            self.send_header("Content-Type", "text/html; charset=utf-8")
             self.send_header("Content-Length", str(len(data)))
             self.send_header("Cache-Control", "no-store")
             self.send_header("X-Content-Type-Options", "nosniff")
@@ -256,11 +255,10 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
         error = DesignFileError([Diagnostic("GL115", "watch needs a file, not standard input", "<command line>")])
         return show_refusal(error, source, options)
     board, path, sheets = Board(), Path(source), Remembered()
-    if not source or _stamp(path) is None:
-        wrong = Diagnostic("GL101", "no such file; watch needs an existing file", source)
-        return show_refusal(DesignFileError([wrong]), source, options)
-    if path.is_dir():
-        wrong = Diagnostic("GL101", "this is a folder; watch shows one design file", source)
+    missing = not source or _stamp(path) is None
+    if missing or path.is_dir():
+        folder = "this is a folder; watch shows one design file"
+        wrong = Diagnostic("GL101", "no such file; watch needs an existing file" if missing else folder, source)
         return show_refusal(DesignFileError([wrong]), source, options)
     page = whole_page(path.name, ['<div id="problem" role="status"></div>'], watch_script())
     try:
