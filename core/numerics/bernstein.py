@@ -12,6 +12,19 @@ import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
 
+HERMITE: Reals = np.array(
+    [
+        [1, 0, 0, 0, 0, 0],
+        [0, 1, 0, 0, 0, 0],
+        [0, 0, 0.5, 0, 0, 0],
+        [-10, -6, -1.5, 10, -4, 0.5],
+        [15, 8, 1.5, -15, 7, -1],
+        [-6, -3, -0.5, 6, -3, 0.5],
+    ]
+)
+"""Coefficients of degree 0 to 5 by (s0, v0, a0, s1, v1, a1), derivatives by x in [0, 1]."""
+
+
 _ROUNDING = 64.0 * float(np.finfo(np.float64).eps)
 _DEEPEST = 48
 

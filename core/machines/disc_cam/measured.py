@@ -830,11 +830,11 @@ class MeasuredCamDesign(DiscCamDesign):
         return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], _TURN))
 
     @property
-    def follower_velocity_max(self) -> float | None:
+    def follower_velocity_max(self) -> float | None:  # type: ignore[override]
         return None if self.speed is None else self.speed * self.rates[0]
 
     @property
-    def follower_acceleration_max(self) -> float | None:
+    def follower_acceleration_max(self) -> float | None:  # type: ignore[override]
         return None if self.speed is None else self.speed**2 * self.rates[1]
 
     @cached_property

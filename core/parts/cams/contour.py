@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -96,18 +97,14 @@ def contour(given: TangentProfile | CircularArcProfile | EccentricProfile) -> Co
         found = _with_straight(base, known) if given.type == "tangent" else _with_arcs(base, known)
         _require(found)
         if found.whole + dwell > TURN + _NARROW:
-            raise _too_long(found, dwell)
+            # rise, dwell and return do not fit into a revolution
+            whole, most = math.degrees(found.whole + dwell), safely_below(math.degrees(TURN - found.whole))
+            message = f"rise, dwell and return of the profile: {short(whole)} deg (limit <= 360 deg)"
+            raise NoSolution(message, key="profile.dwell_angle", fix=f"reduce profile.dwell_angle to {most} deg")
     except NoSolution as error:
         change = " or ".join(f"profile.{name}" for name in sizes)
         raise NoSolution(error.message, key=error.key or "profile", fix=error.fix or f"change {change}") from None
     return replace(found, dwell=dwell)
-
-
-def _too_long(found: Contour, dwell: float) -> NoSolution:
-    """Rise, dwell and return do not fit into a revolution."""
-    whole, most = math.degrees(found.whole + dwell), math.degrees(TURN - found.whole)
-    message = f"rise, dwell and return of the profile: {short(whole)} deg (limit <= 360 deg)"
-    return NoSolution(message, key="profile.dwell_angle", fix=f"reduce profile.dwell_angle to {safely_below(most)} deg")
 
 
 def _of_nose(base: float, known: Mapping[str, float]) -> tuple[float, float] | None:
@@ -198,7 +195,7 @@ def _by_ascent(base: float, flank: float, known: Mapping[str, float]) -> Contour
     ascent, side, to_base = known["ascent"], math.copysign(1.0, flank), flank - base
     along, across = to_base * math.cos(ascent), to_base * math.sin(ascent)
     if "nose_radius" in known:
-        return _by_nose(base, known["nose_radius"], flank, ascent)
+        return _by_nose(base, known["nose_radius"], flank, ascent, along, across)
     if "nose_distance" in known:
         distance = known["nose_distance"]
         return Contour(base, flank - side * math.hypot(distance + along, across), distance, flank, ascent)
@@ -208,9 +205,8 @@ def _by_ascent(base: float, flank: float, known: Mapping[str, float]) -> Contour
     return Contour(base, nose, whole - nose, flank, ascent)
 
 
-def _by_nose(base: float, nose: float, flank: float, ascent: float) -> Contour:
+def _by_nose(base: float, nose: float, flank: float, ascent: float, along: float, across: float) -> Contour:
     """The distance of the nose on the axis at which its circle touches the flank's, which may do so twice."""
-    along, across = (flank - base) * math.cos(ascent), (flank - base) * math.sin(ascent)
     root = math.sqrt(max((flank - nose) ** 2 - across**2, 0.0))
     tried = [Contour(base, nose, distance, flank, ascent) for distance in (root - along, -root - along)]
     found = []
@@ -231,8 +227,7 @@ def _apart(base: float, nose: float, distance: float | None, flank: float | None
     """No flank touches base circle and nose."""
     where = "" if distance is None else f", its centre {short(distance)} mm from the axis"
     arc = "straight flank" if flank is None else f"flank of {short(flank)} mm"
-    message = f"no {arc} joins a base circle of {short(base)} mm and a nose of {short(nose)} mm{where}"
-    return NoSolution(message)
+    return NoSolution(f"no {arc} joins a base circle of {short(base)} mm and a nose of {short(nose)} mm{where}")
 
 
 def _require(found: Contour) -> None:
@@ -442,10 +437,8 @@ def contour_motion(found: Contour, reach: float | None, follower: float | Rocker
         NoSolution - a face on a flank that is not convex, a roller too large for a concave flank, a follower that jams
             or does not reach the cam
     """
-    course = _course(found, reach, follower)
-    start, middle, top = course.heights
-    flank, nose, behind, back = course.arcs
-    stretches = zip(("flank", "nose", DWELL, "nose", "flank"), course.ends, (middle, top, top, middle, start),
+    ends, (start, middle, top), (flank, nose, behind, back) = _course(found, reach, follower)
+    stretches = zip(("flank", "nose", DWELL, "nose", "flank"), ends, (middle, top, top, middle, start),
                     (flank, nose, None, behind, back), strict=True)  # fmt: skip
     pieces: list[Piece] = []
     place, low = 0.0, 0.0
@@ -475,16 +468,11 @@ def _shape(piece: Piece, start: float, height: Height) -> Shape:
 def _course(found: Contour, reach: float | None, follower: float | Rocker) -> _Course:
     if reach is None:
         return _under_face(found)
-    _require_fit(found, reach)
-    return _on_rocker(found, reach, follower) if isinstance(follower, Rocker) else _under_roller(found, reach, follower)
-
-
-def _require_fit(found: Contour, reach: float) -> None:
-    """Refuse a roller that does not fit a concave flank."""
     if found.flank is not None and found.flank < 0.0 and reach >= -found.flank:
         limit = -found.flank
         message = f"roller_radius: {unlike(reach, limit)} mm (limit < {unlike(limit, reach)} mm, the concave flank)"
         raise NoSolution(message, key="follower.roller_radius", fix=f"use a roller below {short(limit)} mm")
+    return _on_rocker(found, reach, follower) if isinstance(follower, Rocker) else _under_roller(found, reach, follower)
 
 
 def _under_face(found: Contour) -> _Course:
@@ -496,53 +484,66 @@ def _under_face(found: Contour) -> _Course:
         raise NoSolution(f"a flat face needs convex flanks, these are {words}", key="profile", fix="use a roller")
     else:
         joint, flank = cmath.phase(found.joint_normal), _Face(found.flank_center, found.flank)
-        middle, back = float(nose.height(np.array(joint), 0)[0]), flank._replace(center=_beyond(found, 0.0))
+        middle, back = float(nose.height(np.array(joint), 0)[0]), flank._replace(center=_turned(flank.center, whole))
     ends = joint, found.ascent, found.ascent + found.dwell, whole - joint, whole
-    behind = nose._replace(center=_behind(found, 0.0))
+    behind = nose._replace(center=_turned(nose.center, found.dwell))
     return _Course(ends, (found.base, middle, found.distance + found.nose), (flank, nose, behind, back))
 
 
-def _behind(found: Contour, lead: float) -> complex:
-    """Centre of the nose behind the arc about the cam axis, turned by an angle."""
-    return found.nose_center * cmath.rect(1.0, found.dwell + lead)
+def _turned(center: complex, angle: float) -> complex:
+    return center * cmath.rect(1.0, angle)
 
 
-def _beyond(found: Contour, lead: float) -> complex:
-    """Centre of the flank behind the nose, turned by an angle."""
-    return found.flank_center * cmath.rect(1.0, found.whole + lead)
+def _rolled(
+    found: Contour,
+    reach: float,
+    lead: float,
+    passed: Callable[[float, float], tuple[float, float]],
+    arc: Callable[[complex, float], Arc],
+    line: Callable[[float, float], Arc],
+) -> _Course:
+    """The course of a roller.
 
-
-def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
+    Parameters
+        lead : float [rad] - by which the arcs are turned
+        passed : (distance from the cam axis, direction) of a point of the centre's path -> cam angle and height there
+        arc : (centre, radius) of the centre's path -> Arc
+        line : (direction of its normal, distance) of that path -> Arc
+    """
     whole, prime = found.whole, found.base + reach
-    start = math.sqrt((prime - offset) * (prime + offset))
-    lead = math.atan2(offset, start)
-
-    def passed(size: float, direction: float) -> tuple[float, float]:
-        """Cam angle at which the roller's centre passes a point of its path, and its height there."""
-        height = math.sqrt((size - offset) * (size + offset))
-        return lead + direction - math.atan2(offset, height), height
-
-    nose = _Circle(found.nose_center * cmath.rect(1.0, lead), found.nose + reach, offset)
-    behind = nose._replace(center=_behind(found, lead))
+    nose, behind = (arc(_turned(found.nose_center, lead + by), found.nose + reach) for by in (0.0, found.dwell))
     apex, top = passed(found.distance + found.nose + reach, found.ascent)
+    _, start = passed(prime, 0.0)
     if found.flank is None:
         return _Course((0.0, apex, apex, whole, whole), (start, start, top), (nose, nose, nose, nose))
     meeting = found.nose_center + (found.nose + reach) * found.joint_normal
     (rise, middle), (fall, _) = (
         passed(abs(meeting), direction) for direction in (cmath.phase(meeting), whole - cmath.phase(meeting))
     )
-    normal = cmath.phase(found.joint_normal)
-    if min(math.cos(lead + normal - rise), math.cos(lead + whole - normal - fall)) <= 0.0:
+    if math.isinf(found.flank):
+        flank, back = (line(lead + by, prime) for by in (0.0, whole))
+    else:
+        flank, back = (arc(_turned(found.flank_center, lead + by), found.flank + reach) for by in (0.0, whole))
+    return _Course((rise, apex, apex + found.dwell, fall, whole), (start, middle, top), (flank, nose, behind, back))
+
+
+def _under_roller(found: Contour, reach: float, offset: float) -> _Course:
+    prime = found.base + reach
+    lead = math.atan2(offset, math.sqrt((prime - offset) * (prime + offset)))
+
+    def passed(size: float, direction: float) -> tuple[float, float]:
+        height = math.sqrt((size - offset) * (size + offset))
+        return lead + direction - math.atan2(offset, height), height
+
+    course = _rolled(found, reach, lead, passed, partial(_Circle, offset=offset), partial(_Line, offset=offset))
+    normal, (rise, _, _, fall, whole) = cmath.phase(found.joint_normal), course.ends
+    flanked = found.flank is not None
+    if flanked and min(math.cos(lead + normal - rise), math.cos(lead + whole - normal - fall)) <= 0.0:
         # the tangents of a convex cam pass its axis farther than the line of travel does
         message = "the pressure angle reaches 90 deg on a concave flank: the follower jams"
         fix = "reduce the magnitude of follower.offset, or increase that of profile.flank_radius"
         raise NoSolution(message, key="profile", fix=fix)
-    flank: _Circle | _Line = _Line(lead, prime, offset)
-    back: _Circle | _Line = _Line(lead + whole, prime, offset)
-    if not math.isinf(found.flank):
-        flank = _Circle(found.flank_center * cmath.rect(1.0, lead), found.flank + reach, offset)
-        back = flank._replace(center=_beyond(found, lead))
-    return _Course((rise, apex, apex + found.dwell, fall, whole), (start, middle, top), (flank, nose, behind, back))
+    return course
 
 
 class Rocker(NamedTuple):
@@ -584,13 +585,9 @@ class Rocker(NamedTuple):
 
 def _on_rocker(found: Contour, reach: float, rocker: Rocker) -> _Course:
     course = _rocked(found, reach, rocker)
-    jam = _jam(course)
-    if jam is not None:
-        raise NoSolution(
-            f"the pressure angle reaches 90 deg between the cam angles {jam} deg: the follower jams",
-            key="profile",
-            fix=_freed(found, reach, rocker),
-        )
+    if (jam := _jam(course)) is not None:
+        message = f"the pressure angle reaches 90 deg between the cam angles {jam} deg: the follower jams"
+        raise NoSolution(message, key="profile", fix=_freed(found, reach, rocker))
     return course
 
 
@@ -605,29 +602,15 @@ def _freed(found: Contour, reach: float, rocker: Rocker) -> str:
 
 
 def _rocked(found: Contour, reach: float, rocker: Rocker) -> _Course:
-    whole, prime, size = found.whole, found.base + reach, found.distance + found.nose + reach
-    rocker.require_reach(prime, size)
-    start, side = -rocker.side * rocker.ahead(prime), rocker.side
+    prime, side = found.base + reach, rocker.side
+    rocker.require_reach(prime, found.distance + found.nose + reach)
+    start = -side * rocker.ahead(prime)
 
     def passed(size: float, direction: float) -> tuple[float, float]:
-        """Cam angle at which the roller's centre passes a point of its path, and the angle of the arm there."""
         return direction - start - side * rocker.ahead(size), rocker.angle(size)
 
-    nose = _OnArc(found.nose_center, found.nose + reach, rocker, start)
-    behind = nose._replace(center=_behind(found, 0.0))
-    (apex, top), low = passed(size, found.ascent), rocker.angle(prime)
-    if found.flank is None:
-        return _Course((0.0, apex, apex, whole, whole), (low, low, top), (nose, nose, nose, nose))
-    meeting = found.nose_center + (found.nose + reach) * found.joint_normal
-    (rise, middle), (fall, _) = (
-        passed(abs(meeting), direction) for direction in (cmath.phase(meeting), whole - cmath.phase(meeting))
-    )
-    flank: _OnArc | _OnLine = _OnLine(0.0, prime, rocker, start)
-    back: _OnArc | _OnLine = _OnLine(whole, prime, rocker, start)
-    if not math.isinf(found.flank):
-        flank = _OnArc(found.flank_center, found.flank + reach, rocker, start)
-        back = flank._replace(center=_beyond(found, 0.0))
-    return _Course((rise, apex, apex + found.dwell, fall, whole), (low, middle, top), (flank, nose, behind, back))
+    arc, line = (partial(each, rocker=rocker, start=start) for each in (_OnArc, _OnLine))
+    return _rolled(found, reach, 0.0, passed, arc, line)
 
 
 def _jam(course: _Course) -> str | None:

@@ -6,39 +6,25 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.design import Found, placed
 from gearlink.core.base.errors import MissingSection
+from gearlink.core.base.real_speed import OF_TIME
 from gearlink.core.base.report import Check, Status, Table, without_noise
 from gearlink.core.base.results import cached_property
-from gearlink.core.numerics.motion_extremes import WithExtremes, extremes
+from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.parts.cams.checks import step_check
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, VELOCITY_STEP
 from gearlink.core.parts.cams.shaped_design import WithShapedLaws
 
 if TYPE_CHECKING:
-    from gearlink.core.base.design import Found
     from gearlink.core.parts.cams.follower_motion import FollowerMotion, Piece
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.shaped import Phase
 
 _CURVES = ("lift", "velocity", "acceleration", "jerk")
-_EXTREMES = (
-    "lift_max",
-    "lift_max_at",
-    "velocity_max",
-    "velocity_max_at",
-    "velocity_min",
-    "velocity_min_at",
-    "acceleration_max",
-    "acceleration_max_at",
-    "acceleration_min",
-    "acceleration_min_at",
-    "jerk_max",
-    "jerk_max_at",
-    "jerk_min",
-    "jerk_min_at",
-)
-_SPEEDS = tuple(f"follower_{curve}_{side}" for curve in ("velocity", "acceleration") for side in ("max", "min"))
-FOLLOWER_QUANTITIES = (*_EXTREMES, *_SPEEDS)
+_EXTREMES = ("lift_max", "lift_max_at", *names(*_CURVES[1:]))
+_RATES = tuple((f"{curve}_{side}", order) for order, curve in enumerate(_CURVES[1:3], 1) for side in ("max", "min"))
+FOLLOWER_QUANTITIES = (*_EXTREMES, *(f"follower_{name}" for name, _ in _RATES))
 
 
 class OfFollower(WithExtremes, WithShapedLaws):
@@ -60,16 +46,16 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     def law_at(self, path: str, /) -> Law | None:
         """The law of a segment."""
-        return next(
-            (each.law for each in self.follower_motion.pieces if path == f"motion[{each.number - 1}].law"), None
-        )
+        return next((each.law for each in self._pieces_at(path)), None)
 
     def law_phase(self, path: str, /) -> Phase:
         """The phase of a segment."""
         from gearlink.core.parts.cams.shaped import Drive
 
-        pieces = self.follower_motion.pieces
-        return Drive.of(self.spec).phase(next(p.width for p in pieces if path == f"motion[{p.number - 1}].law"))
+        return Drive.of(self.spec).phase(self._pieces_at(path)[0].width)
+
+    def _pieces_at(self, path: str) -> list[Piece]:
+        return [each for each in self.follower_motion.pieces if path == f"motion[{each.number - 1}].law"]
 
     def completion(self) -> Iterator[Found]:
         """The optimal laws as they were solved."""
@@ -97,28 +83,15 @@ class OfFollower(WithExtremes, WithShapedLaws):
         """Speed of the cam [rad/s]."""
         return None if self.spec.speed is None else self.spec.speed * math.pi / 30.0
 
-    def _in_time(self, name: str, order: int) -> float | None:
-        return None if self.speed is None else self.motion_extremes[name] * self.speed**order
-
     @property
-    def follower_velocity_max(self) -> float | None:
-        """Maximum velocity of the follower [mm/s or rad/s]."""
-        return self._in_time("velocity_max", 1)
+    def _in_time(self) -> list[float] | None:
+        speed = self.speed
+        return None if speed is None else [self.motion_extremes[name] * speed**order for name, order in _RATES]
 
-    @property
-    def follower_velocity_min(self) -> float | None:
-        """Minimum velocity of the follower."""
-        return self._in_time("velocity_min", 1)
-
-    @property
-    def follower_acceleration_max(self) -> float | None:
-        """Maximum acceleration of the follower [mm/s^2 or rad/s^2]."""
-        return self._in_time("acceleration_max", 2)
-
-    @property
-    def follower_acceleration_min(self) -> float | None:
-        """Minimum acceleration of the follower."""
-        return self._in_time("acceleration_min", 2)
+    follower_velocity_max: float | None = placed("_in_time.0")
+    follower_velocity_min: float | None = placed("_in_time.1")
+    follower_acceleration_max: float | None = placed("_in_time.2")
+    follower_acceleration_min: float | None = placed("_in_time.3")
 
     def table_follower(self, samples: int | None = None) -> Table:
         """Lift and its derivatives over the cam angle, with the segment's number."""
@@ -131,7 +104,7 @@ class OfFollower(WithExtremes, WithShapedLaws):
         s, *rates = self.follower_motion.evaluate(phi, 3)
         columns: dict[str, tuple[Any, str]] = {"cam_angle": (degrees, "deg")}
         columns["lift"] = (np.degrees(s), "deg") if self.rocks else (s, "mm")
-        columns |= {name: (rate, unit) for name, rate, unit in zip(_CURVES[1:], rates, self._units, strict=True)}
+        columns |= dict(zip(_CURVES[1:], zip(rates, self._units, strict=True), strict=True))
         return Table.of("follower", {**columns, "segment": (self.follower_motion.numbers(phi), "1")})
 
     def table_segments(self, _samples: int | None = None) -> Table:
@@ -148,15 +121,10 @@ class OfFollower(WithExtremes, WithShapedLaws):
             "law": ([piece.name for piece in pieces], "1"),
             "lift": (lifts, "deg" if self.rocks else "mm"),
         }
-        length = "rad" if self.rocks else "mm"
-        for order, curve in enumerate(_CURVES[1:3], 1):
-            for name in (f"{curve}_max", f"{curve}_min"):
-                columns[name] = ([each[name] for each in found], self._units[order - 1])
-        if self.speed is not None:
-            for order, curve in enumerate(_CURVES[1:3], 1):
-                unit = f"{length}/s" if order == 1 else f"{length}/s^2"
-                for name in (f"{curve}_max", f"{curve}_min"):
-                    columns[f"follower_{name}"] = ([each[name] * self.speed**order for each in found], unit)
+        columns |= {name: ([each[name] for each in found], self._units[order - 1]) for name, order in _RATES}
+        for name, order in _RATES if self.speed is not None else ():
+            values = [each[name] * self.speed**order for each in found]  # type: ignore[operator]
+            columns[f"follower_{name}"] = (values, ("rad" if self.rocks else "mm") + OF_TIME[order])
         return Table.of("segments", columns)
 
     @property

@@ -16,6 +16,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution, in_section
 from gearlink.core.numerics.arrays import Reals, distinct
+from gearlink.core.numerics.bernstein import HERMITE
 from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.laws import Law, law
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 TURN = 2.0 * math.pi
 DWELL, POLYNOMIAL = "dwell", "polynomial"
+_Ends = tuple[float | None, float | None]  # velocity and acceleration at the end of a segment, where the file has them
 _NOTHING = 1e-9  # of a piece: roots of its velocity nearer to an end are the end's own
 
 Shape = Callable[[Reals, int], Sequence[Reals]]
@@ -218,7 +220,7 @@ def motion_of(
     if not isinstance(motion, list):
         return spline([math.radians(angle) for angle, _ in motion.rows], [unit * lift for _, lift in motion.rows])
     pieces: list[Piece] = []
-    given: dict[int, tuple[float | None, float | None]] = {}
+    given: dict[int, _Ends] = {}
     start, lift = 0.0, unit * initial_lift
     for number, segment in enumerate(motion, 1):
         end = math.radians(segment.to)
@@ -294,13 +296,13 @@ def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any
         blank = replace(blank, law=one)
         if not one.kappa:
             raise NoSolution(f"the {one.name} law ends where it starts: between two lifts its s runs from 0 to 1")
+        shape = _normalised(one)
         if one.kind == "rest-to-speed":
-            shape, speed = _to_speed(one), (slope / one.kappa, 0.0)
+            rest, speed = (0.0, 0.0), (slope / one.kappa, 0.0)
             if segment.mirrored:
                 shape, joints = _backwards(shape), tuple(sorted(1.0 - x for x in joints))
-            ends = (speed, (0.0, 0.0)) if segment.mirrored else ((0.0, 0.0), speed)
+            ends = (speed, rest) if segment.mirrored else (rest, speed)
             return replace(blank, name=name, shape=shape, joints=joints, ends=ends)
-        shape = _normalised(one) if one.kind == "given-ends" else _plain(one)
     if segment.mirrored:
         raise NoSolution(f"mirrored applies only to a law from rest to speed; {name} runs from rest to rest")
     return replace(blank, name=name, shape=shape, joints=joints, ends=_ends(blank, shape))
@@ -318,12 +320,10 @@ def _even(x: Reals, order: int) -> list[Reals]:
     return [x, np.ones_like(x), np.zeros_like(x), np.zeros_like(x)][: order + 1]
 
 
-def _plain(one: Law) -> Shape:
-    return lambda x, order: one.derivatives(x, 0, order)
-
-
 def _normalised(one: Law) -> Shape:
     """From 0 to 1, whatever its own ends are."""
+    if one.kind == "rest-to-rest":
+        return lambda x, order: one.derivatives(x, 0, order)
     (start,), (end,) = one.derivatives(0.0, 0, 0), one.derivatives(1.0, 0, 0)
     rise = end - start
     if not rise:
@@ -380,10 +380,6 @@ def _facing(beside: Piece, end: str, key: str, unit: float) -> tuple[float, floa
         raise NoSolution(f"segment {beside.number} ends where it starts: its s runs from 0 to 1", key=key)
     rise = (beside.high - beside.low) / own
     return given[1] * rise / beside.width, given[2] * rise / beside.width**2
-
-
-def _to_speed(one: Law) -> Shape:
-    return lambda x, order: [each / one.kappa for each in one.derivatives(x, 0, order)]
 
 
 def _backwards(shape: Shape) -> Shape:
@@ -453,9 +449,10 @@ def _shifted(definition: Any, inflection: Any) -> tuple[Shape, tuple[float, ...]
         return [2.0 * share * each / (2.0 * share) ** n for n, each in enumerate(found)]
 
     def shape(x: Reals, order: int) -> list[Reals]:
-        below, above = half(x, order, m), half(1.0 - x, order, 1.0 - m)
-        mirrored = [1.0 - above[0], *((-1.0) ** (n + 1) * each for n, each in enumerate(above) if n)]
-        return [np.where(x < m, low, high) for low, high in zip(below, mirrored, strict=True)]
+        both = zip(half(x, order, m), above(x, order), strict=True)
+        return [np.where(x < m, low, high) for low, high in both]
+
+    above = _backwards(lambda x, order: half(x, order, 1.0 - m))
 
     low = [2.0 * m * x for x in one.joints if x < 0.5]
     high = [1.0 - 2.0 * (1.0 - m) * (1.0 - x) for x in one.joints if x > 0.5]
@@ -490,24 +487,11 @@ def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: floa
 # Polynomials of degree 5 between what their ends have
 
 
-HERMITE: Reals = np.array(
-    [
-        [1, 0, 0, 0, 0, 0],
-        [0, 1, 0, 0, 0, 0],
-        [0, 0, 0.5, 0, 0, 0],
-        [-10, -6, -1.5, 10, -4, 0.5],
-        [15, 8, 1.5, -15, 7, -1],
-        [-6, -3, -0.5, 6, -3, 0.5],
-    ]
-)
-"""Coefficients of degree 0 to 5 by (s0, v0, a0, s1, v1, a1), derivatives by x in [0, 1]."""
 _JERK = np.array([6.0 * HERMITE[3], 6.0 * HERMITE[3] + 24.0 * HERMITE[4] + 60.0 * HERMITE[5]])
 _FOURTH = np.array([24.0 * HERMITE[4], 24.0 * HERMITE[4] + 120.0 * HERMITE[5]])
 
 
-def _joined(
-    pieces: Sequence[Piece], given: Mapping[int, tuple[float | None, float | None]], *, turns_round: bool = True
-) -> list[Piece]:
+def _joined(pieces: Sequence[Piece], given: Mapping[int, _Ends], *, turns_round: bool = True) -> list[Piece]:
     """The polynomials with what their neighbours impose, what is given, and what makes the rest smooth.
 
     Free accelerations make the jerk continuous, free velocities the fourth derivative: minimum integral of s'''^2.
@@ -534,9 +518,7 @@ def _joined(
     return joined
 
 
-def _known(
-    pieces: Sequence[Piece], k: int, given: tuple[float | None, float | None] | None, turns_round: bool
-) -> list[float | None]:
+def _known(pieces: Sequence[Piece], k: int, given: _Ends | None, turns_round: bool) -> list[float | None]:
     """Velocity and acceleration at the start of a piece, as far as they are known; of no use where none asks."""
     before, after = pieces[k - 1], pieces[k]
     if not after.coefficients:
@@ -584,24 +566,13 @@ def _polynomial(coefficients: Sequence[float], x: Reals, order: int) -> list[Rea
 
 
 def _turning_places(piece: Piece) -> list[float]:
-    """Places in (0, 1) at which a polynomial turns round."""
-    if piece.law is not None and piece.law.kind == "given-ends":
-        return _turns_of_law(piece)
-    if not piece.coefficients:
-        return []
+    """Places in (0, 1) at which a polynomial, or a law with given ends, turns round."""
     rate = [k * c for k, c in enumerate(piece.coefficients)][1:]
-    roots = np.roots(np.trim_zeros(np.array(rate[::-1]), "f")) if any(rate) else np.zeros(0)
-    real = [float(root.real) for root in roots if abs(root.imag) < 1e-7]
-    return sorted(x for x in real if _NOTHING < x < 1.0 - _NOTHING)
-
-
-def _turns_of_law(piece: Piece) -> list[float]:
-    """The same of a law with given ends, whose velocity changes its sign there."""
-
-    def velocity(x: float) -> float:
-        return float(piece.evaluate(np.array([x]), 1)[1][0])
-
-    return [x for x in roots_on(velocity, np.linspace(0.0, 1.0, 129).tolist()) if _NOTHING < x < 1.0 - _NOTHING]
+    found = [float(root.real) for root in np.roots(rate[::-1]) if abs(root.imag) < 1e-7]
+    if piece.law is not None and piece.law.kind == "given-ends":
+        places = np.linspace(0.0, 1.0, 129).tolist()
+        found = [*roots_on(lambda x: float(piece.evaluate(np.array([x]), 1)[1][0]), places)]
+    return sorted(x for x in found if _NOTHING < x < 1.0 - _NOTHING)
 
 
 def _sign(value: float) -> int:

@@ -102,9 +102,6 @@ def _mirrored(k: int, value: Any, x: Any) -> Any:
     return 0.0 - value if k % 2 == 0 else value
 
 
-_Parts: TypeAlias = tuple[Callable[[], Any], ...]
-
-
 def scca(a: float, b: float, c: float, d: float) -> FirstHalf:
     """First half of the SCCA law with the shares a (sine), b (constant), c (cosine), d (no acceleration).
 
@@ -197,80 +194,62 @@ def _pieces(a: float, b: float, c: float, d: float, peak: float, cruise: float) 
     return tuple(found)
 
 
-def _asked(parts: _Parts, low: int, high: int) -> tuple[Any, ...]:
-    return tuple(part() for part in parts[low + 1 : high + 2])
+def _piece(*parts: Callable[[Any], Any], place: Callable[[Any], Any] = lambda x: x) -> Piece:
+    """A piece from the integral, the rise and its derivatives, each a function of a place that follows from x."""
+
+    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        z = place(x)
+        return tuple(part(z) for part in parts[low + 1 : high + 2])
+
+    return piece
 
 
 def _sine_piece(a: float, peak: float) -> Piece:
     r = a / math.pi
-
-    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
-        z = x / r
-        half = _sin(0.5 * z)
-        parts: _Parts = (
-            lambda: peak * r**3 * _square_excess(z),
-            lambda: peak * r * r * _sine_defect(z),
-            lambda: 2.0 * peak * r * half * half,
-            lambda: peak * _sin(z),
-            lambda: peak / r * (1.0 - 2.0 * half * half),
-        )
-        return _asked(parts, low, high)
-
-    return piece
+    return _piece(
+        lambda z: peak * r**3 * _square_excess(z),
+        lambda z: peak * r * r * _sine_defect(z),
+        lambda z: _versine(z, 2.0 * peak * r),
+        lambda z: peak * _sin(z),
+        lambda z: peak / r * (1.0 - _versine(z)),
+        place=lambda x: x / r,
+    )
 
 
 def _parabola(origin: float, at_origin: tuple[float, float, float, float]) -> Piece:
     area, rise, velocity, acceleration = at_origin
-
-    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
-        t = x - origin
-        parts: _Parts = (
-            lambda: area + t * (rise + t * (0.5 * velocity + t * (acceleration / 6.0))),
-            lambda: rise + t * (velocity + t * (0.5 * acceleration)),
-            lambda: velocity + t * acceleration,
-            lambda: acceleration + 0.0 * t,
-            lambda: 0.0 * t + 0.0,
-        )
-        return _asked(parts, low, high)
-
-    return piece
+    return _piece(
+        lambda t: area + t * (rise + t * (0.5 * velocity + t * (acceleration / 6.0))),
+        lambda t: rise + t * (velocity + t * (0.5 * acceleration)),
+        lambda t: velocity + t * acceleration,
+        lambda t: acceleration + 0.0 * t,
+        lambda t: 0.0 * t + 0.0,
+        place=lambda x: x - origin,
+    )
 
 
 def _harmonic_piece(c: float, peak: float) -> Piece:
     r = c / math.pi
-
-    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
-        z = x / r
-        half = _sin(0.5 * z)
-        parts: _Parts = (
-            lambda: peak * r**3 * _sine_defect(z),
-            lambda: 2.0 * peak * r * r * half * half,
-            lambda: peak * r * _sin(z),
-            lambda: peak * (1.0 - 2.0 * half * half),
-            lambda: -peak / r * _sin(z),
-        )
-        return _asked(parts, low, high)
-
-    return piece
+    return _piece(
+        lambda z: peak * r**3 * _sine_defect(z),
+        lambda z: _versine(z, 2.0 * peak * r * r),
+        lambda z: peak * r * _sin(z),
+        lambda z: peak * (1.0 - _versine(z)),
+        lambda z: -peak / r * _sin(z),
+        place=lambda x: x / r,
+    )
 
 
 def _cosine_piece(c: float, peak: float, end: float, area: float, rise: float, velocity: float) -> Piece:
     r = c / math.pi
-
-    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
-        w = end - x
-        z = w / r
-        half = _sin(0.5 * z)
-        parts: _Parts = (
-            lambda: area - w * (rise - 0.5 * velocity * w) - peak * r**3 * _square_excess(z),
-            lambda: rise - velocity * w + peak * r * r * _sine_defect(z),
-            lambda: velocity - 2.0 * peak * r * half * half,
-            lambda: peak * _sin(z),
-            lambda: -peak / r * (1.0 - 2.0 * half * half),
-        )
-        return _asked(parts, low, high)
-
-    return piece
+    return _piece(
+        lambda w: area - w * (rise - 0.5 * velocity * w) - peak * r**3 * _square_excess(w / r),
+        lambda w: rise - velocity * w + peak * r * r * _sine_defect(w / r),
+        lambda w: velocity - _versine(w / r, 2.0 * peak * r),
+        lambda w: peak * _sin(w / r),
+        lambda w: -peak / r * (1.0 - _versine(w / r)),
+        place=lambda x: end - x,
+    )
 
 
 def _sin(x: Any) -> Any:
@@ -282,103 +261,77 @@ def _sin(x: Any) -> Any:
     return np.sin(x)
 
 
+def _versine(z: Any, twice: float = 2.0) -> Any:
+    """1 - cos z without cancellation, times half of a number."""
+    half = _sin(0.5 * z)
+    return twice * half * half
+
+
 def _sine_defect(z: Any) -> Any:
     """z - sin z without cancellation."""
-    return _near_zero(
-        z, 1.0, lambda z: z**3 / 6.0, (20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0), lambda z: z - _sin(z)
-    )
+    return _near_zero(z, 3, lambda z: z - _sin(z))
 
 
 def _square_excess(z: Any) -> Any:
     """z^2/2 - 1 + cos z without cancellation."""
-    return _near_zero(
-        z,
-        1.0,
-        lambda z: z**4 / 24.0,
-        (30.0, 56.0, 90.0, 132.0, 182.0, 240.0, 306.0),
-        lambda z: 0.5 * z * z - 2.0 * _sin(0.5 * z) ** 2,
-    )
+    return _near_zero(z, 4, lambda z: 0.5 * z * z - _versine(z))
 
 
-def _near_zero(
-    z: Any, limit: float, leading: Callable[[Any], Any], divisors: tuple[float, ...], direct: Callable[[Any], Any]
-) -> Any:
+def _near_zero(z: Any, power: int, direct: Callable[[Any], Any]) -> Any:
+    """z^n/n! - z^(n + 2)/(n + 2)! + ... below 1, from there on directly."""
+
     def series(z: Any) -> Any:
-        y = z * z
-        value = 1.0 - y / divisors[-1]
-        for divisor in reversed(divisors[:-1]):
-            value = 1.0 - y / divisor * value
-        return leading(z) * value
+        y, value = z * z, 1.0
+        for n in range(power + 13, power, -2):
+            value = 1.0 - y / (n * (n + 1.0)) * value
+        return z**power / math.factorial(power) * value
 
     if isinstance(z, float):
-        return series(z) if z < limit else direct(z)
+        return series(z) if z < 1.0 else direct(z)
     import numpy as np
 
-    near = z < limit
+    near = z < 1.0
     if not near.any():
         return direct(z)
-    return series(z) if near.all() else np.where(near, series(np.minimum(z, limit)), direct(z))
+    return series(z) if near.all() else np.where(near, series(np.minimum(z, 1.0)), direct(z))
 
 
 # First halves of the polynomial laws, with closed forms of their peaks
 
 
-def _polynomial(*parts: Callable[[Any], Any]) -> Piece:
-    """A piece from the integral, the rise and its derivatives, each a function of x."""
-
-    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
-        return tuple(part(x) for part in parts[low + 1 : high + 2])
-
-    return piece
+def _polynomial(peaks: tuple[float, float, float, float], *parts: Callable[[Any], Any]) -> FirstHalf:
+    return FirstHalf(((0.5, _piece(*parts)),), *peaks)
 
 
-def _polynomial_half(piece: Piece, velocity: float, acceleration: float, jerk: float, power: float) -> FirstHalf:
-    return FirstHalf(((0.5, piece),), velocity, acceleration, jerk, power)
-
-
+# The peaks are those of velocity, acceleration, jerk and power.
 # The parts are factored in w = x(1 - x) where that saves cancellation; the sixth is the fourth derivative, which
 # only the peak jerk of the free laws asks for.
-POLYNOMIAL_123 = _polynomial_half(
-    _polynomial(
-        lambda x: x**3 * (1.0 - 0.5 * x),
-        lambda x: x * x * (3.0 - 2.0 * x),
-        lambda x: 6.0 * x * (1.0 - x),
-        lambda x: 6.0 * (1.0 - 2.0 * x),
-        lambda x: -12.0 + 0.0 * x,
-        lambda x: 0.0 * x,
-    ),
-    velocity=1.5,
-    acceleration=6.0,
-    jerk=12.0,
-    power=2.0 * math.sqrt(3.0),
+POLYNOMIAL_123 = _polynomial(
+    (1.5, 6.0, 12.0, 2.0 * math.sqrt(3.0)),
+    lambda x: x**3 * (1.0 - 0.5 * x),
+    lambda x: x * x * (3.0 - 2.0 * x),
+    lambda x: 6.0 * x * (1.0 - x),
+    lambda x: 6.0 * (1.0 - 2.0 * x),
+    lambda x: -12.0 + 0.0 * x,
+    lambda x: 0.0 * x,
 )
-POLYNOMIAL_345 = _polynomial_half(
-    _polynomial(
-        lambda x: x**4 * (2.5 - x * (3.0 - x)),
-        lambda x: x**3 * (10.0 - x * (15.0 - 6.0 * x)),
-        lambda x: 30.0 * (x * (1.0 - x)) ** 2,
-        lambda x: 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x),
-        lambda x: 60.0 * (1.0 - 6.0 * x * (1.0 - x)),
-        lambda x: -360.0 * (1.0 - 2.0 * x),
-    ),
-    velocity=15.0 / 8.0,
-    acceleration=10.0 / math.sqrt(3.0),
-    jerk=60.0,
-    power=1800.0 / 64.0 * (6.0 / 7.0) ** 3 / math.sqrt(7.0),
+POLYNOMIAL_345 = _polynomial(
+    (15.0 / 8.0, 10.0 / math.sqrt(3.0), 60.0, 1800.0 / 64.0 * (6.0 / 7.0) ** 3 / math.sqrt(7.0)),
+    lambda x: x**4 * (2.5 - x * (3.0 - x)),
+    lambda x: x**3 * (10.0 - x * (15.0 - 6.0 * x)),
+    lambda x: 30.0 * (x * (1.0 - x)) ** 2,
+    lambda x: 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x),
+    lambda x: 60.0 * (1.0 - 6.0 * x * (1.0 - x)),
+    lambda x: -360.0 * (1.0 - 2.0 * x),
 )
-POLYNOMIAL_4567 = _polynomial_half(
-    _polynomial(
-        lambda x: x**5 * (7.0 - x * (14.0 - x * (10.0 - 2.5 * x))),
-        lambda x: x**4 * (35.0 - x * (84.0 - x * (70.0 - 20.0 * x))),
-        lambda x: 140.0 * (x * (1.0 - x)) ** 3,
-        lambda x: 420.0 * (x * (1.0 - x)) ** 2 * (1.0 - 2.0 * x),
-        lambda x: 840.0 * x * (1.0 - x) * (1.0 - 5.0 * x * (1.0 - x)),
-        lambda x: 840.0 * (1.0 - 2.0 * x) * (1.0 - 10.0 * x * (1.0 - x)),
-    ),
-    velocity=35.0 / 16.0,
-    acceleration=84.0 * math.sqrt(5.0) / 25.0,
-    jerk=52.5,
-    power=58800.0 / 1024.0 * (10.0 / 11.0) ** 5 / math.sqrt(11.0),
+POLYNOMIAL_4567 = _polynomial(
+    (35.0 / 16.0, 84.0 * math.sqrt(5.0) / 25.0, 52.5, 58800.0 / 1024.0 * (10.0 / 11.0) ** 5 / math.sqrt(11.0)),
+    lambda x: x**5 * (7.0 - x * (14.0 - x * (10.0 - 2.5 * x))),
+    lambda x: x**4 * (35.0 - x * (84.0 - x * (70.0 - 20.0 * x))),
+    lambda x: 140.0 * (x * (1.0 - x)) ** 3,
+    lambda x: 420.0 * (x * (1.0 - x)) ** 2 * (1.0 - 2.0 * x),
+    lambda x: 840.0 * x * (1.0 - x) * (1.0 - 5.0 * x * (1.0 - x)),
+    lambda x: 840.0 * (1.0 - 2.0 * x) * (1.0 - 10.0 * x * (1.0 - x)),
 )
 
 
@@ -486,6 +439,10 @@ _SCCA = {
     "modified-sine": (0.25, 0.0, 0.75, 0.0),
 }
 _POLYNOMIALS = {"polynomial-345": POLYNOMIAL_345, "polynomial-4567": POLYNOMIAL_4567}
+_FREE = {
+    "quintic": (POLYNOMIAL_123, POLYNOMIAL_345, 0.4, 0.6, "2/5 to 3/5"),
+    "septic": (POLYNOMIAL_345, POLYNOMIAL_4567, 3.0 / 7.0, 4.0 / 7.0, "3/7 to 4/7"),
+}
 _KINDS = {"": _rest_to_rest, "half-": _half_law, "velocity-": _velocity_law}
 _PARABOLIC = "{scca: [0, 1, 0, 0]}"
 _TEXTBOOKS = {"3-4-5": "polynomial-345", "4-5-6-7": "polynomial-4567", "shm": "simple-harmonic"}
@@ -539,7 +496,7 @@ def law(definition: Any, phase: Phase | None = None) -> Law:
         shares = _numbers(key, value, 4)
         base = scca(*shares)
         return _KINDS[key.removesuffix("scca")](f"{key} {list(shares)}", base)
-    if key in ("quintic", "septic"):
+    if key in _FREE:
         return _free(key, *_numbers(key, value, 1))
     raise NoSolution(f"unknown motion law {named(key)}: the laws with numbers are scca, quintic and septic")
 
@@ -588,17 +545,14 @@ def _constant_share(name: str) -> float:
 
 
 def _free(key: str, kappa: float) -> Law:
-    low, high, ends = (0.4, 0.6, "2/5 to 3/5") if key == "quintic" else (3.0 / 7.0, 4.0 / 7.0, "3/7 to 4/7")
+    base, addition, low, high, ends = _FREE[key]
     if not low <= kappa <= high:
         nearest = min(max(kappa, low), high)
         raise NoSolution(
             f"{key} law with kappa {short(kappa)} reverses its acceleration",
             fix=f"keep kappa in {ends} (nearest {short(nearest)}): change the swing or the phase length",
         )
-    name = f"{key} {kappa!r}"
-    if key == "quintic":
-        return _free_law(name, POLYNOMIAL_123, POLYNOMIAL_345, kappa)
-    return _free_law(name, POLYNOMIAL_345, POLYNOMIAL_4567, kappa)
+    return _free_law(f"{key} {kappa!r}", base, addition, kappa)
 
 
 def _numbers(key: str, value: object, count: int) -> tuple[float, ...]:

@@ -73,21 +73,13 @@ class Law:
             (0.5, 1.875, 0.0)
         """
         inside: Any = float(x) if isinstance(x, int | float) else x
-        _check_range(self.name, inside)
+        single = isinstance(inside, float)
+        if single or inside.size:
+            low, high = (inside, inside) if single else (float(inside.min()), float(inside.max()))
+            if not (low >= -_REACH and high <= 1.0 + _REACH):
+                message = f"motion law {self.name}: x from {low:.4g} to {high:.4g} is outside 0 to 1"
+                raise NoSolution(message, fix="reduce it to the phase")
         return self.derivatives(inside, 0, order)
-
-
-def _check_range(name: str, x: Any) -> None:
-    if isinstance(x, float):
-        low = high = x
-    elif x.size == 0:
-        return
-    else:
-        low, high = float(x.min()), float(x.max())
-    if not (low >= -_REACH and high <= 1.0 + _REACH):
-        raise NoSolution(
-            f"motion law {name}: x from {low:.4g} to {high:.4g} is outside 0 to 1", fix="reduce it to the phase"
-        )
 
 
 def peak_power(derivatives: Callable[[Any, int, int], tuple[Any, ...]], steps: int = 32) -> float:

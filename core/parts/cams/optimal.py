@@ -103,8 +103,8 @@ def optimum(wish: Wish) -> Optimum:
 
 def require_possible(wish: Wish) -> None:
     """Refuse limits that no law can keep, whatever its form."""
-    least = {"jerk": 4.0, "acceleration": 1.0, "velocity": 1.0} if wish.to_speed else _LEAST
-    for key, low in least.items():
+    least = (4.0, 1.0, 1.0) if wish.to_speed else (32.0, 4.0, 1.0)
+    for key, low in zip(("jerk", "acceleration", "velocity"), least, strict=True):
         given = getattr(wish, key)
         attained = key == "jerk" or (wish.to_speed and key == "velocity")
         if given is not None and (given < low if attained else given <= low):
@@ -113,14 +113,8 @@ def require_possible(wish: Wish) -> None:
             what = f"{key}: {given:g} (limit {sign} {low:g}): no law {ends} has a smaller maximum {key}"
             raise NoSolution(what, key=key, fix=f"set {key} {words} {low:g}")
     if wish.minimize == "residual" and wish.acceleration is None and wish.jerk is None:
-        raise NoSolution(
-            "minimize: residual needs a limit of acceleration or jerk",
-            key="acceleration",
-            fix="give acceleration or jerk",
-        )
-
-
-_LEAST = {"jerk": 32.0, "acceleration": 4.0, "velocity": 1.0}
+        message = "minimize: residual needs a limit of acceleration or jerk"
+        raise NoSolution(message, key="acceleration", fix="give acceleration or jerk")
 
 
 def bound_of_all_laws(wish: Wish) -> float | None:
@@ -231,12 +225,6 @@ class Residual:
             return found.real if self.even else found.imag
         return found
 
-    def spread(self) -> float:
-        """Upper bound of |d^2/dlambda^2| of the integral for |s''| <= 1."""
-        # exp(...) is turned to the middle of the phase, which no magnitude feels
-        rate = self.damping * 1.0 + self.damped * 0.5
-        return _TWO_PI**2 * rate**2
-
 
 @dataclass(frozen=True)
 class Course:
@@ -298,14 +286,8 @@ class Programme:
             objective = Course(self.residual.rows, *wish.band, None)
         elif objective is None:
             objective = Course(self._rows(_ORDERS[wish.minimize]), 0.0, half, None)
-        self.courses = [
-            objective,
-            *(
-                Course(self._rows(order), 0.0, half, float(limit))
-                for key, order in _ORDERS.items()
-                if (limit := getattr(wish, key)) is not None and key != wish.minimize
-            ),
-        ]
+        limited = (Course(self._rows(_ORDERS[key]), 0.0, half, limit) for key, limit in self.limits)
+        self.courses = [objective, *limited]
         self.scale = _USUAL[wish.minimize]
         self.known = [begun(course) for course in self.courses]
         self.around = np.full(self.basis.size, -np.inf), np.full(self.basis.size, np.inf)
@@ -355,9 +337,8 @@ class Programme:
         program = self.program()
         both = program.least == -program.most
         tighter = np.where(both, (1.0 - slack) * program.most, program.most)
-        found = solution(
-            *program._replace(least=np.where(both, -tighter, program.least), most=tighter), tolerance=_SOLVER
-        )
+        least = np.where(both, -tighter, program.least)
+        found = solution(*program._replace(least=least, most=tighter), tolerance=_SOLVER)
         if found is None:
             raise self._impossible()
         return Solved(found.x[:-1], self.scale, found, program)
@@ -423,14 +404,8 @@ class Programme:
         """What |s''| of a law that keeps the limits and is no worse does not pass."""
         wish = self.wish
         limits = {key: value if key == wish.minimize else getattr(wish, key) for key in _ORDERS}
-        found = []
-        if limits["acceleration"] is not None:
-            found.append(limits["acceleration"])
-        if limits["jerk"] is not None:
-            found.append(0.5 * limits["jerk"])
-        if limits["velocity"] is not None:  # Markov's inequality
-            found.append(2.0 * (wish.degree + 1) ** 2 * limits["velocity"])
-        return float(min(found))
+        shares = {"acceleration": 1.0, "jerk": 0.5, "velocity": 2.0 * (wish.degree + 1) ** 2}  # Markov's inequality
+        return float(min(share * limits[key] for key, share in shares.items() if limits[key] is not None))
 
 
 def _nodes(count: int) -> tuple[Reals, Reals]:
@@ -483,16 +458,16 @@ def greatest_residual(coefficients: Sequence[float] | Reals, band: tuple[float, 
         Between two places the integral is off its chord by h^2/8 of the bound of its second derivative.
     """
     c = np.asarray(coefficients, dtype=np.float64)
-    basis = Basis(Wish("residual", c.size - 1, symmetric=False))
-    course = Residual(basis, band, damping)
+    damped = math.sqrt(1.0 - damping * damping)
     nodes, weights = _nodes(40 + c.size + math.ceil(math.pi * band[1]))
     left, values = 1.0 - nodes, weights * bernstein.evaluate(c, nodes)
 
     def numerator(periods: Reals) -> Reals:
         w = _TWO_PI * periods[:, None]
-        return np.asarray(np.abs(np.exp((-damping + 1j * course.damped) * w * left) @ values))
+        return np.asarray(np.abs(np.exp((-damping + 1j * damped) * w * left) @ values))
 
-    spread = course.spread() * bernstein.peak(c) / 8.0
+    # |d^2/dlambda^2| of the integral; exp(...) is turned to the middle of the phase, which no magnitude feels
+    spread = (_TWO_PI * (damping + 0.5 * damped)) ** 2 * bernstein.peak(c) / 8.0
     low = np.linspace(*band, 257)[:-1]
     high = np.append(low[1:], band[1])
     at_low, at_high = numerator(low), numerator(high)
@@ -508,7 +483,7 @@ def greatest_residual(coefficients: Sequence[float] | Reals, band: tuple[float, 
         at = numerator(middle)
         low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
         at_low, at_high = np.concatenate([at_low, at]), np.concatenate([at, at_high])
-    return (best * (1.0 + 1e-6) + 1e-15 * _TWO_PI) / (_TWO_PI * course.damped)
+    return (best * (1.0 + 1e-6) + 1e-15 * _TWO_PI) / (_TWO_PI * damped)
 
 
 _PLACES, _FINE = 129, 2049
@@ -526,18 +501,12 @@ def least_torque(wish: Wish) -> Optimum:
         `lower_bound` holds for every law with the same maximum acceleration, whatever its form and jerk.
     """
     require_possible(wish)
-    search = _Search(wish)
-    coefficients = search.shipped()[0]
-    value = _torque(coefficients)
+    coefficients = _Search(wish).shipped()[0]
+    value = bernstein.peak(bernstein.product(bernstein.integral(coefficients), coefficients))
     bound = bound_of_all_laws(wish)
     assert bound is not None
     lower = bound if wish.to_speed else max(bound, _bound_by_energy(wish, value))
     return Optimum(tuple(coefficients.tolist()), value, lower, bound)
-
-
-def _torque(coefficients: Reals) -> float:
-    velocity = bernstein.integral(coefficients)
-    return bernstein.peak(bernstein.product(velocity, coefficients))
 
 
 class _Search(Programme):
@@ -558,9 +527,8 @@ class _Search(Programme):
         return np.asarray(v0[:, None] * a + a0[:, None] * v - (v0 * a0)[:, None] * one)
 
     def _value(self, series: Reals) -> float:
-        return float(
-            np.max(np.abs((self.basis.rows(1, self.fine) @ series) * (self.basis.rows(2, self.fine) @ series)))
-        )
+        v, a = (self.basis.rows(order, self.fine) @ series for order in (1, 2))
+        return float(np.max(np.abs(v * a)))
 
     def _begin(self) -> None:
         """From the law of minimum acceleration that keeps the other limits."""

@@ -12,8 +12,9 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table, safely_above
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.bernstein import HERMITE
 from gearlink.core.numerics.extremes import maximum_over
-from gearlink.core.parts.cams.follower_motion import HERMITE, TURN
+from gearlink.core.parts.cams.follower_motion import TURN
 
 
 class FollowerMotion(Protocol):

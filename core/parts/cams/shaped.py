@@ -164,8 +164,7 @@ def _made(asked: _Asked) -> Law:
         start, end = (_end_values(model, key, phase) for key in ("start", "end"))
         return _polynomial(start, end) if model.type == "polynomial" else _harmonic(start, end)
     if model.type == "polydyne":
-        periods = _design_periods(model, phase)
-        return polydyne(periods, model.damping)
+        return polydyne(_design_periods(model, phase), model.damping)
     if model.type == "bernstein":
         return of_acceleration(model.acceleration, "bernstein")
     if model.type == "table":
@@ -194,11 +193,8 @@ def _end_values(model: Any, key: str, phase: Phase) -> list[float]:
     if isinstance(given, list):
         return list(given)
     if given == "join":
-        raise NoSolution(
-            f"{key}",
-            key=key,
-            fix="join uses the end values of a neighbouring segment, which only a segment of a cam has",
-        )
+        fix = "join uses the end values of a neighbouring segment, which only a segment of a cam has"
+        raise NoSolution(key, key=key, fix=fix)
     if phase.angle is None or not phase.rise:
         raise NoSolution(
             f"{key}: speed and acceleration of a lift apply only to a segment of a cam", key=key, fix="give [s, v, a]"
@@ -246,9 +242,8 @@ def _harmonic(start: Sequence[float], end: Sequence[float]) -> Law:
             found += [(k * pi) ** order * np.cos(k * pi * x + shift), (k * pi) ** order * np.sin(k * pi * x + shift)]
         return found
 
-    ends = np.array([0.0, 1.0])
-    rows = [np.array(basis(ends, order)).T for order in range(3)]
-    matrix = np.concatenate([np.array([row[0] for row in rows]), np.array([row[1] for row in rows])])
+    rows = np.array([basis(np.array([0.0, 1.0]), order) for order in range(3)])
+    matrix = np.concatenate([rows[..., 0], rows[..., 1]])
     c = np.linalg.solve(matrix, np.array([*start, *end]))
 
     def derivatives(x: Any, low: int, high: int) -> tuple[Any, ...]:
@@ -293,19 +288,14 @@ def of_acceleration(coefficients: Sequence[float], name: str, shaping: Shaping |
     size = float(np.max(np.abs(v))) or 1.0
     rests, runs = abs(v[-1]) <= _SAME * size, abs(v[-1] - 1.0) <= _SAME * size
     if not runs and not (rests and abs(s[-1] - 1.0) <= _SAME * size):
-        message = (
-            f"this acceleration ends with s = {short(s[-1])}, v = {short(v[-1])}: from rest to rest they are 1 and 0, "
-        )
-        raise NoSolution(f"{message}from rest to speed v is 1", key="acceleration")
+        message = f"this acceleration ends with s = {short(s[-1])}, v = {short(v[-1])}: from rest to rest they are "
+        raise NoSolution(f"{message}1 and 0, from rest to speed v is 1", key="acceleration")
     if rests:
         c, v, s = c / s[-1], v / s[-1], s / s[-1]
     v[-1] = 0.0 if rests else 1.0
     j = bernstein.derivative(c)
-    return _of_orders(
-        name,
-        [s, v, c, j, bernstein.derivative(j)],
-        (shaping or Shaping("bernstein"))._replace(acceleration=tuple(coefficients)),
-    )
+    shaping = (shaping or Shaping("bernstein"))._replace(acceleration=tuple(coefficients))
+    return _of_orders(name, [s, v, c, j, bernstein.derivative(j)], shaping)
 
 
 def _of_orders(name: str, orders: Sequence[Reals], shaping: Shaping) -> Law:
@@ -360,11 +350,9 @@ def polydyne(periods: float, damping: float = 0.0) -> Law:
         D. A. Stoddart, Machine Design 25 (1953); base polynomial and damping: own derivation
     """
     if periods < _LEAST_PERIODS:
-        message = (
-            f"natural periods per phase of the polydyne law: {safely_below(periods)} (limit >= {_LEAST_PERIODS:g})"
-        )
+        message = f"natural periods per phase of the polydyne law: {safely_below(periods)} (limit >= "
         fix = f"make phase time times frequency {safely_above(_LEAST_PERIODS / periods)} times as large"
-        raise NoSolution(message, key="periods", fix=fix)
+        raise NoSolution(f"{message}{_LEAST_PERIODS:g})", key="periods", fix=fix)
     y = [Fraction(c) for c in (0, 0, 0, 0, 0, 126, -420, 540, -315, 70)]
     w = Fraction(_TWO_PI * periods)
     first = [*(k * c for k, c in enumerate(y) if k), Fraction(0)]
@@ -385,14 +373,10 @@ def _design_periods(model: Polydyne, phase: Phase) -> float:
         if phase.speed is None:
             raise NoSolution("speed of a law needs the speed of the design", key="speed", fix="give it, or periods")
         time *= phase.speed / model.speed
-    with at_key("frequency"):
-        return _possible(frequency * time)
-
-
-def _possible(periods: float) -> float:
-    if periods < _LEAST_PERIODS:
-        polydyne(periods)
-    return periods
+    if frequency * time < _LEAST_PERIODS:
+        with at_key("frequency"):
+            polydyne(frequency * time)
+    return frequency * time
 
 
 def _frequency(given: float | None, phase: Phase) -> float:
@@ -408,20 +392,11 @@ def _frequency(given: float | None, phase: Phase) -> float:
 def _optimal(model: OptimalLaw, phase: Phase) -> Law:
     from gearlink.core.parts.cams.optimal import Wish, least_torque, optimum
 
-    bounds = {key: _bound(model, key, phase) for key in model.KEYS}
-    damping = model.damping
-    if damping is None:
-        damping = phase.damping or 0.0
+    v, a, j = (_bound(model, key, phase) for key in model.KEYS)
+    damping = (phase.damping or 0.0) if model.damping is None else model.damping
     band = None if model.band is None else _band(model, phase)
-    wish = Wish(
-        model.minimize,
-        model.degree,
-        band=band,
-        damping=damping if band else 0.0,
-        symmetric=model.symmetric,
-        to_speed=phase.to_speed,
-        **bounds,
-    )
+    known = damping if band else 0.0
+    wish = Wish(model.minimize, model.degree, v, a, j, band, known, model.symmetric, phase.to_speed)
     try:
         found = least_torque(wish) if wish.minimize == "torque" else optimum(wish)
     except NoSolution as error:
@@ -430,14 +405,10 @@ def _optimal(model: OptimalLaw, phase: Phase) -> Law:
             raise
         message = f"limit.{error.key} {real:g} is, over this rise and time, {error.message}"
         raise NoSolution(message, key=f"limit.{error.key}", fix=error.fix) from error
-    periods = _known_periods(model.frequency, phase)
+    frequency = phase.frequency if model.frequency is None else model.frequency
+    periods = None if frequency is None or phase.time is None else frequency * phase.time
     shaping = Shaping("optimal", periods=periods, damping=damping, wish=wish, optimum=found)
     return of_acceleration(found.coefficients, f"optimal {model.minimize} {model.degree}", shaping)
-
-
-def _known_periods(given: float | None, phase: Phase) -> float | None:
-    frequency = given if given is not None else phase.frequency
-    return None if frequency is None or phase.time is None else frequency * phase.time
 
 
 def _bound(model: OptimalLaw, key: str, phase: Phase) -> float | None:
@@ -510,10 +481,7 @@ def residuals(law: Law, periods: Reals, damping: float = 0.0) -> Reals:
     return np.asarray(np.array(found).reshape(w.shape) / (w * damped))
 
 
-# Coefficients of t^3, t^4, t^5 by s0, v0, a0, s1, v1, a1 of an interval of width 1; t^0 to t^2 are s0, v0, a0/2.
-_UPPER = np.array(
-    [[-10.0, -6.0, -1.5, 10.0, -4.0, 0.5], [15.0, 8.0, 1.5, -15.0, 7.0, -1.0], [-6.0, -3.0, -0.5, 6.0, -3.0, 0.5]]
-)
+_UPPER = bernstein.HERMITE[3:]
 # Integral of (6 c3 + 24 c4 t + 60 c5 t^2)^2 over the interval, as a form of these.
 _ENERGY = _UPPER.T @ np.array([[36.0, 72.0, 120.0], [72.0, 192.0, 360.0], [120.0, 360.0, 720.0]]) @ _UPPER
 
@@ -538,18 +506,10 @@ class TableSpline:
         rates = np.zeros((self.x.size, 2))
         rates[-1, 0] = end_speed
         rates[1:-1] = self._inner_rates(end_speed)
-        h = self.width
-        ends = [
-            self.s[:-1],
-            rates[:-1, 0] * h,
-            rates[:-1, 1] * h * h,
-            self.s[1:],
-            rates[1:, 0] * h,
-            rates[1:, 1] * h * h,
-        ]
+        h, (v, a) = self.width, rates.T
         # Differences of s, not s itself: they lose no digits.
-        step = np.array([np.zeros_like(h), ends[1], ends[2], np.diff(self.s), ends[4], ends[5]])
-        self.coefficients = np.array([ends[0], ends[1], 0.5 * ends[2], *(_UPPER @ step)]).T
+        step = [np.zeros_like(h), v[:-1] * h, a[:-1] * h * h, np.diff(self.s), v[1:] * h, a[1:] * h * h]
+        self.coefficients = np.array([self.s[:-1], step[1], 0.5 * step[2], *(_UPPER @ np.array(step))]).T
 
     def _inner_rates(self, end_speed: float) -> Reals:
         """v and a at the inner points, by elimination of blocks."""
@@ -597,16 +557,14 @@ class TableSpline:
 
     def peaks(self) -> tuple[float, float, float, float]:
         """Maximum |v|, |a|, |j| and |v a|, proved by the coefficients of Bernstein polynomials."""
-        orders = [self._bernstein(order) for order in (1, 2, 3)]
-        power = np.array([bernstein.product(v, a) for v, a in zip(orders[0], orders[1], strict=True)])
-        v, a, j, p = (bernstein.peak(each) for each in (*orders, power))
-        return v, a, j, p
+        v, a, j = (self._bernstein(order) for order in (1, 2, 3))
+        power = np.array([bernstein.product(*both) for both in zip(v, a, strict=True)])
+        return bernstein.peak(v), bernstein.peak(a), bernstein.peak(j), bernstein.peak(power)
 
     def least_speed(self) -> tuple[float, float]:
         """The minimum velocity and its x."""
-        a = np.array([np.polynomial.polynomial.polyder(c, 2) for c in self.coefficients])
-        places = [*self.x.tolist()]
-        for k, c in enumerate(a):
+        places = self.x.tolist()
+        for k, c in enumerate(np.polynomial.polynomial.polyder(self.coefficients, 2, axis=1)):
             roots = np.polynomial.polynomial.polyroots(np.trim_zeros(c, "b"))
             real = roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real > 0.0) & (roots.real < 1.0)]
             places += (self.x[k] + self.width[k] * real).tolist()
@@ -615,8 +573,5 @@ class TableSpline:
         return float(speeds[least]), places[least]
 
     def _bernstein(self, order: int) -> Reals:
-        rows = [
-            np.polynomial.polynomial.polyder(c, order) / h**order
-            for c, h in zip(self.coefficients, self.width, strict=True)
-        ]
-        return np.array([bernstein.from_powers(row.tolist()) for row in rows])
+        rows = np.polynomial.polynomial.polyder(self.coefficients, order, axis=1) / self.width[:, None] ** order
+        return np.array([bernstein.from_powers(row) for row in rows.tolist()])

@@ -81,16 +81,16 @@ def smallest_cam_of_rollers(
     """
     families: list[Callable[[complex], _Violation]] = []
     for start, end, limit in strokes or [(0.0, TURN, max_pressure_angle)]:
-        slope = _checked_slope(limit)
+        if not 0.0 < limit < math.pi / 2.0:
+            raise NoSolution(f"pressure angle: {math.degrees(limit):g} deg (above 0, below 90 deg; usual 30 deg)")
+        slope = math.tan(limit)
         inner = [joint for joint in joints if start < joint < end] if strokes else joints
         for planes in (partial(_rocker_planes, roller, slope, sense, sign) for roller in rollers for sign in (1, -1)):
             if refined:
                 families.append(partial(_largest_violation, planes, start, end, inner))
             else:
                 families.append(partial(_largest_of, *planes(np.linspace(start, end, _PLACES))))
-    first = rollers[0]
-    psi, _ = first.law(np.array([0.0]))
-    target = complex(first.pivot + first.arm * np.exp(1j * psi[0]))
+    target = complex(rollers[0].pivot + rollers[0].arm * np.exp(1j * rollers[0].law(np.array([0.0]))[0][0]))
     return _nearest_admissible(families, target, max_pressure_angle)
 
 
@@ -101,14 +101,6 @@ def _rocker_planes(roller: RockingRoller, slope: float, sense: int, sign: int, p
     normal: Points = local * np.exp(1j * psi)
     reach = roller.arm * (1.0 - sense * psi1) * local.real
     return normal, (np.conj(normal) * roller.pivot).real + reach
-
-
-def _checked_slope(max_pressure_angle: float) -> float:
-    if not 0.0 < max_pressure_angle < math.pi / 2.0:
-        raise NoSolution(
-            f"pressure angle: {math.degrees(max_pressure_angle):g} deg (above 0, below 90 deg; usual 30 deg)"
-        )
-    return math.tan(max_pressure_angle)
 
 
 _Planes: TypeAlias = Callable[[Reals], tuple[Points, Reals]]
@@ -174,7 +166,6 @@ def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: fl
     return complex(feasible[int(np.argmin(np.abs(feasible - target)))])
 
 
-Apart = Callable[[Reals], tuple[Reals, Reals]]
 _SAMPLES = 512
 _POLISH = 4
 _INSIDE = 1e-12
@@ -246,9 +237,7 @@ def nearest(lines: Sequence[Line]) -> Placed:
             offset = (one.height - other.height) / (other.slope - one.slope)
             found.append(Placed(offset, one.height + one.slope * offset))
     room = _INSIDE * max(abs(line.height) for line in lines)
-    kept = [
-        each for each in found if all(each.height >= line.height + line.slope * each.offset - room for line in lines)
-    ]
+    kept = (each for each in found if each.height >= height_at(lines, each.offset) - room)
     return min(kept, key=lambda each: each.prime_radius)
 
 
@@ -335,25 +324,18 @@ class Rocking(NamedTuple):
         most: list[float] = []
         for stroke, limit in zip((1, -1, 0), limits, strict=True):
 
-            def apart(phi: Reals, limit: float = limit) -> tuple[Reals, Reals]:
+            def beyond(phi: Reals, lower: bool, limit: float = limit) -> Reals:
                 s, s1 = self.motion.evaluate(phi, 1)
                 share = self.arm * (1.0 + self.side * self.sense * s1) * math.cos(limit) / self.distance
                 if np.any(np.abs(share) > 1.0):  # one of the two sides cannot be
                     raise _nowhere()
-                return s, np.arccos(share)
+                angle = np.arccos(share)
+                return np.abs(angle - limit) - s if lower else s - angle - limit
 
-            def lower(phi: Reals, limit: float = limit, apart: Apart = apart) -> Reals:
-                s, angle = apart(phi)
-                return np.abs(angle - limit) - s
-
-            def upper(phi: Reals, limit: float = limit, apart: Apart = apart) -> Reals:
-                s, angle = apart(phi)
-                return s - angle - limit
-
-            found = most_in_strokes(self.motion, [lower], stroke), most_in_strokes(self.motion, [upper], stroke)
-            least += [each for each in found[:1] if each is not None]
-            most += [-each for each in found[1:] if each is not None]
-        low, high = max(least), min(most)
+            for found, lower in ((least, True), (most, False)):
+                if (each := most_in_strokes(self.motion, [partial(beyond, lower=lower)], stroke)) is not None:
+                    found.append(each)
+        low, high = max(least), -max(most)
         if not low <= high * (1.0 + 1e-12) or high <= 0.0:
             raise _nowhere()
         return max(low, 0.0), high
@@ -364,10 +346,8 @@ class Rocking(NamedTuple):
 
 
 def _nowhere() -> NoSolution:
-    message = "no cam meets this pressure angle at this center_distance"
-    return NoSolution(
-        message, key="cam.size", fix="increase cam.size.pressure_angle, or change follower.center_distance"
-    )
+    fix = "increase cam.size.pressure_angle, or change follower.center_distance"
+    return NoSolution("no cam meets this pressure angle at this center_distance", key="cam.size", fix=fix)
 
 
 def first_from_which(least: Callable[[float], float], low: float, high: float, key: str, *, steps: int = 1) -> float:
@@ -386,9 +366,8 @@ def first_from_which(least: Callable[[float], float], low: float, high: float, k
         if least(place) >= 0.0:
             return bracketed_root(least, before, place)
         before = place
-    raise NoSolution(
-        "no cam meets this curvature_radius here", key=key, fix=f"reduce {key}.curvature_radius, or lengthen the motion"
-    )
+    fix = f"reduce {key}.curvature_radius, or lengthen the motion"
+    raise NoSolution("no cam meets this curvature_radius here", key=key, fix=fix)
 
 
 def flat_base_radius(motion: FollowerMotion, radius: float) -> float:

@@ -26,7 +26,10 @@ class _LawNames:
         return MODELS.get(str(value.get("type"))) if isinstance(value, dict) else None
 
     def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
+        from pydantic import TypeAdapter
+
         from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
+        from gearlink.core.parts.cams.shaped_spec import MODELS
 
         short = ("half-345", "half-4567", "velocity-345", "velocity-4567")
         four = {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}
@@ -34,7 +37,7 @@ class _LawNames:
         numbers |= {name: {"type": "number", "description": words} for name, words in _OF_KAPPA.items()}
         return {
             "anyOf": [
-                *_shaped_schemas(handler),
+                *(handler(TypeAdapter(model).core_schema) for model in MODELS.values()),
                 {"enum": [*REST_TO_REST, *REST_TO_SPEED, *short]},
                 {"type": "string", "pattern": r"^(half-|velocity-)?mcv-[0-9.]+$"},
                 {"type": "object", "properties": numbers, "additionalProperties": False, "minProperties": 1},
@@ -68,15 +71,6 @@ def _written(value: BaseModel | str | dict[str, Any], handler: Any, info: Any) -
     if isinstance(value, str | dict):
         return handler(value)
     return value.model_dump(mode=info.mode, exclude_unset=info.exclude_unset, by_alias=True)
-
-
-def _shaped_schemas(handler: Any) -> list[Any]:
-    """The schemas of the models, which are read when a schema is asked for."""
-    from pydantic import TypeAdapter
-
-    from gearlink.core.parts.cams.shaped_spec import MODELS
-
-    return [handler(TypeAdapter(model).core_schema) for model in MODELS.values()]
 
 
 MotionLaw = Annotated[str | dict[str, Any], _LawNames()]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly
 
-from gearlink.core.parts.cams.follower_motion import HERMITE
+from gearlink.core.numerics.bernstein import HERMITE
 from gearlink.core.parts.cams.laws import law
 
 DESIGNS = Path(__file__).parents[3] / "designs"
