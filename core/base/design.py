@@ -347,6 +347,7 @@ class Design:
         """
         if name not in self.table_names():
             raise UnknownName("table", name, self.table_names())
+        self.require_table(name)
         rows = None if samples is None else _rows(samples)
         with step(f"{type(self).__name__}.table_{name}"):
             table: Table = getattr(self, f"table_{name}")(rows)

@@ -16,7 +16,6 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.disc_cam.spec import (
     ROLLER_SHARE,
-    CamBody,
     DiscCamSpec,
     OnRocker,
     OnSlide,
@@ -74,24 +73,20 @@ class FollowerCams:
         self.follower: Any = spec.follower
 
     @property
-    def section(self) -> CamBody:
-        """The section `cam` of the file."""
-        return self.spec.cam
+    def roller_radius(self) -> Any:
+        """Of the follower [mm]; 0 of a face or an edge."""
+        return getattr(self.follower, "roller_radius", 0.0)
 
     @cached_property
     def motion(self) -> FollowerMotion:
         """Lift over the cam angle [mm or rad]."""
         spec = self.spec
-        made = None if spec.arcs is None else self.contour
-        if made is not None:
-            reach = None if spec.is_flat else float(getattr(spec.follower, "roller_radius", 0.0))
-            if isinstance(spec.follower, OnRocker):
-                rocker = spec.follower
-                assert rocker.center_distance is not None, "a file with a profile has it"
-                return contour_motion(
-                    made, reach, Rocker(rocker.arm, rocker.center_distance, -self.sense * rocker.side)
-                )
-            return contour_motion(made, reach, self.sense * float(getattr(spec.follower, "offset", 0.0)))
+        if spec.arcs is not None and self.contour is not None:
+            reach, given = None if spec.is_flat else self.roller_radius, self.follower
+            if spec.oscillates:
+                rocker = Rocker(given.arm, given.center_distance, -self.sense * given.side)
+                return contour_motion(self.contour, reach, rocker)
+            return contour_motion(self.contour, reach, self.sense * float(getattr(given, "offset", 0.0)))
         assert spec.motion is not None, "a file without a profile has it"
         with at_key("motion"):
             return motion_of(spec.motion, spec.initial_lift, unit=DEGREE if spec.oscillates else 1.0, spec=spec)
@@ -104,12 +99,11 @@ class FollowerCams:
     @cached_property
     def lifts(self) -> tuple[float, float]:
         """Minimum and maximum lift [mm or rad]."""
-        course, joints = (lambda phi: self.motion.evaluate(phi, 0)[0]), self.motion.joints
         low, high = (
-            minimum_over(course, joints=joints, samples=SAMPLES),
-            maximum_over(course, joints=joints, samples=SAMPLES),
+            most(lambda phi: self.motion.evaluate(phi, 0)[0], joints=self.motion.joints, samples=SAMPLES).value
+            for most in (minimum_over, maximum_over)
         )
-        return low.value, high.value
+        return low, high
 
     @cached_property
     def limits(self) -> tuple[float, float, float]:
@@ -125,8 +119,7 @@ class FollowerCams:
         assert size is not None, "needed with a size alone"
         if size.curvature_radius is not None:
             return size.curvature_radius
-        own: float = getattr(self.follower, "roller_radius", 0.0)
-        return (own if roller_radius is None else roller_radius) / ROLLER_SHARE
+        return (self.roller_radius if roller_radius is None else roller_radius) / ROLLER_SHARE
 
     @cached_property
     def _returning(self) -> FollowerMotion:
@@ -149,13 +142,12 @@ class FollowerCams:
             NoSolution - none keeps the limits, or the roller would reach over the cam's axis
         """
         found = self._rocking_place() if self.spec.oscillates else self._sliding_place()
-        roller = getattr(self.follower, "roller_radius", 0.0)
+        roller = self.roller_radius
         if found.radius <= roller:
             given = self.spec.radius is not None
             words = "prime_radius" if given else "the minimum prime radius"
-            message = (
-                f"{words}: {unlike(found.radius, roller)} mm (limit > {unlike(roller, found.radius)} mm; roller_radius)"
-            )
+            radius, limit = unlike(found.radius, roller), unlike(roller, found.radius)
+            message = f"{words}: {radius} mm (limit > {limit} mm; roller_radius)"
             fix = f"set cam.prime_radius above {roller:g} mm" + ("" if given else ", or give cam.size.curvature_radius")
             raise NoSolution(message, key="cam.prime_radius" if given else "cam.size", fix=fix)
         return found
@@ -165,19 +157,16 @@ class FollowerCams:
         if not isinstance(follower, OnSlide):
             radius = self.spec.radius or flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
-                message = (
-                    f"minimum base radius: {short(radius)} mm, since the curvature sets no limit\ngive cam.base_radius"
-                )
-                raise NoSolution(message, key="cam.size")
+                message = f"minimum base radius: {short(radius)} mm, since the curvature sets no limit"
+                raise NoSolution(f"{message}\ngive cam.base_radius", key="cam.size")
             return Place(radius)
         if self.spec.radius is not None:
             return Place(self.spec.radius, float(follower.offset))
         lines = wedge(self.motion, self.limits, self.sense)
         roller, whole = self.spec.return_roller, sum(self.lifts)
         back: list[Line] = []
-        if (
-            roller is not None
-        ):  # its own height is L - y0, by default y0 + the sum of both lifts; its offset counts back
+        if roller is not None:
+            # its own height is L - y0, by default y0 + the sum of both lifts; its offset counts back
             found = wedge(self._returning, self._limits_of_return, self.sense)
             back = [Line(line.height - whole, -line.slope) for line in found]
         equal = roller is not None and roller.distance is None
@@ -192,21 +181,16 @@ class FollowerCams:
             if equal:
                 height = max(height, lowest)
             else:
-                self._require_distance(height + max(lowest, height_at(back, offset)) + whole)
+                # the rollers may stand too near to each other for the limits of the return cam
+                farthest = height + max(lowest, height_at(back, offset)) + whole
+                if roller.distance < farthest * (1.0 - 1e-12):  # type: ignore[operator]
+                    message = f"at a roller distance of {short(roller.distance)} mm the return cam does not keep "  # type: ignore[arg-type]
+                    fix = f"increase return_roller.distance to {safely_above(farthest)} mm, or omit it"
+                    raise NoSolution(f"{message}cam.size", key="return_roller.distance", fix=fix)
         if height + self.lifts[0] <= 0.0:
             message = "these limits set no minimum size, since the motion is so slow"
             raise NoSolution(message, key="cam.size", fix=f"give {self.spec.radius_key}")
         return Place(math.hypot(offset, height), offset)
-
-    def _require_distance(self, least: float) -> None:
-        """Refuse rollers of a slide that stand too near to each other for the limits of the return cam."""
-        roller = self.spec.return_roller
-        assert roller is not None
-        assert roller.distance is not None
-        if roller.distance < least * (1.0 - 1e-12):
-            message = f"at a roller distance of {short(roller.distance)} mm the return cam does not keep cam.size"
-            fix = f"increase return_roller.distance to {safely_above(least)} mm, or omit it"
-            raise NoSolution(message, key="return_roller.distance", fix=fix)
 
     def _rocking_place(self) -> Place:
         follower = self.follower
@@ -225,16 +209,10 @@ class FollowerCams:
             low, high = max(low, least), min(high, most)
             if low > high:
                 message = "no start angle keeps the pressure angle of both rollers"
-                raise NoSolution(
-                    message, key="cam.size", fix="increase cam.size.pressure_angle, or change return_roller.angle"
-                )
-        start = first_from_which(
-            lambda psi: self._room(psi, follower.center_distance),
-            low,
-            high,
-            "cam.size",
-            steps=1 if roller is None else 32,
-        )
+                fix = "increase cam.size.pressure_angle, or change return_roller.angle"
+                raise NoSolution(message, key="cam.size", fix=fix)
+        room = partial(self._room, distance=follower.center_distance)
+        start = first_from_which(room, low, high, "cam.size", steps=1 if roller is None else 32)
         return Place(rocker.prime_radius(start), 0.0, follower.center_distance, start)
 
     def _triangle(self, arm: float, distance: float, radius: float) -> Place:
@@ -263,9 +241,8 @@ class FollowerCams:
         low, high = Rocking(self.motion, arm, distance, self.sense, side).start_angles(self.limits)
         return low + ahead, high + ahead
 
-    def _room(self, start: float, distance: float | None) -> float:
+    def _room(self, start: float, distance: float) -> float:
         """Minimum convex curvature radius less what is asked for [mm], of a start angle; the lesser of two rollers."""
-        assert distance is not None
         place, roller = Place(0.0, 0.0, distance, start), self.spec.return_roller
         found = [(self._rocking_path(place), self._least_radius())]
         if roller is not None:
@@ -292,18 +269,16 @@ class FollowerCams:
         of_sense = {1: rise, -1: back, 0: dwell}
         strokes = [] if rise == back else [(each.start, each.end, of_sense[each.sense]) for each in self.motion.strokes]
         with at_key("cam.size"):
-            center = smallest_cam_of_rollers(
-                rollers, min(rise, back), sense=self.sense, joints=self.motion.joints, strokes=strokes
-            )
-        at_zero = follower.arm * 1.0 + 0j
+            shared: dict[str, Any] = {"sense": self.sense, "joints": self.motion.joints, "strokes": strokes}
+            center = smallest_cam_of_rollers(rollers, min(rise, back), **shared)
+        at_zero = complex(follower.arm)
 
         def placed(share: float) -> Place:
             moved = at_zero + share * (center - at_zero)
             return Place(abs(moved - at_zero), 0.0, abs(moved), abs(cmath.phase(moved / at_zero)))
 
         def room(share: float) -> float:
-            place = placed(share)
-            return self._room(place.start, place.distance)
+            return self._room(placed(share).start, placed(share).distance)
 
         return placed(first_from_which(room, 1.0, _WIDEST, "cam.size"))
 
@@ -312,29 +287,20 @@ class FollowerCams:
         low, high = self.lifts
         given = self.spec.cam.base_radius
         if given is None:
-            start = first_from_which(
-                lambda psi: self._face_room(psi, follower),
-                max(1e-9, 1e-9 - low),
-                0.5 * math.pi - high - 1e-9,
-                "cam.size",
-            )
+
+            def room(psi: float) -> float:
+                flat = self._flat(Place(0.0, 0.0, distance, psi))
+                return flat.min_curvature_radius.value - self._least_radius()
+
+            start = first_from_which(room, max(1e-9, 1e-9 - low), 0.5 * math.pi - high - 1e-9, "cam.size")
             return Place(offset + distance * math.sin(start), 0.0, distance, start)
         share = (given - offset) / distance
         if not 0.0 < share < 1.0:
             low, high = max(offset, 0.0), offset + distance
-            message = (
-                f"base_radius: {given:g} mm (limit > {low:g} mm and < {high:g} mm, center_distance with face_offset)"
-            )
-            raise NoSolution(
-                message, key="cam.base_radius", fix=f"set cam.base_radius between {low:g} mm and {high:g} mm"
-            )
+            limit, key = f"> {low:g} mm and < {high:g} mm, center_distance with face_offset", "cam.base_radius"
+            message = f"base_radius: {given:g} mm (limit {limit})"
+            raise NoSolution(message, key=key, fix=f"set {key} between {low:g} mm and {high:g} mm")
         return Place(given, 0.0, distance, math.asin(share))
-
-    def _face_room(self, start: float, follower: OscillatingFlat) -> float:
-        return (
-            self._flat(Place(0.0, 0.0, follower.center_distance, start)).min_curvature_radius.value
-            - self._least_radius()
-        )
 
     # The cams
 
@@ -353,7 +319,10 @@ class FollowerCams:
     @cached_property
     def pivot(self) -> complex:
         """The pivot of a rocker [mm]."""
-        return self.place.distance * cmath.exp(1j * math.radians(self.follower.pivot_direction))
+        return self._pivot(self.place)
+
+    def _pivot(self, place: Place) -> complex:
+        return place.distance * cmath.exp(1j * math.radians(self.follower.pivot_direction))
 
     def arm_angle(self, place: Place, phi: Reals, order: int, side: int = 1) -> list[Reals]:
         """psi, direction of the arm from the pivot, and its derivatives [rad]."""
@@ -365,9 +334,7 @@ class FollowerCams:
     def _rocking_path(
         self, place: Place, arm: float | None = None, ahead: float = 0.0
     ) -> Callable[[Reals, int], RollerPath]:
-        follower = self.follower
-        pivot = place.distance * cmath.exp(1j * math.radians(follower.pivot_direction))
-        length = follower.arm if arm is None else arm
+        pivot, length = self._pivot(place), self.follower.arm if arm is None else arm
 
         def path(phi: Reals, order: int) -> RollerPath:
             psi, *rates = self.arm_angle(place, phi, max(order, 1))
@@ -404,8 +371,7 @@ class FollowerCams:
         """The cam of the roller, or of an edge, which is one of radius 0."""
         path = self._rocking_path(self.place) if self.spec.oscillates else self._sliding_path()
         key = "cam" if self.spec.radius is None else self.spec.radius_key
-        radius = getattr(self.follower, "roller_radius", 0.0)
-        return DiscCam("main cam", path, self.sense, radius, self.motion.joints, key)
+        return DiscCam("main cam", path, self.sense, self.roller_radius, self.motion.joints, key)
 
     @cached_property
     def back(self) -> DiscCam | None:
@@ -419,6 +385,11 @@ class FollowerCams:
         else:
             path = self._sliding_path(self.roller_distance)
         return DiscCam("return cam", path, self.sense, roller.radius, self.motion.joints, "return_roller")
+
+    @property
+    def discs(self) -> tuple[DiscCam, ...]:
+        """The cams of rollers or an edge: main cam, and the return cam where there is one."""
+        return (self.main,) if self.back is None else (self.main, self.back)
 
     def _require_across(self, roller: ReturnRoller) -> None:
         """Refuse a return roller of a rocker that its cam pushes the same way as the main one: nothing holds it then.
@@ -447,11 +418,6 @@ class FollowerCams:
         """The outer wall of a groove, as a roller of negative radius leaves it."""
         main = self.main
         return DiscCam("outer wall", main.path, main.sense, -main.roller_radius, main.joints, main.key)
-
-    @cached_property
-    def hollow(self) -> tuple[float, float] | None:
-        """Minimum hollow radius of the main cam's profile [mm] and its cam angle [rad]; None where it is convex."""
-        return self.hollow_of(self.main)
 
     @cached_property
     def sharpest(self) -> Extreme:
@@ -492,7 +458,7 @@ class FollowerCams:
         return self._most_in_strokes(0)
 
     def _most_in_strokes(self, sense: int) -> float | None:
-        cams = (self.flat,) if self.spec.is_flat else tuple(c for c in (self.main, self.back) if c)
+        cams = (self.flat,) if self.spec.is_flat else self.discs
         return most_in_strokes(self.motion, [cam.size_of_pressure_angle for cam in cams], sense)
 
 
@@ -512,12 +478,6 @@ class Making:
         """Points of the profile [mm], in the cam's frame."""
         return self.cams.flat.points(phi)[0] if self.spec.is_flat else self.cams.main.points(phi)[1]
 
-    def wall_table(self, samples: int | None) -> Table:
-        """The outer wall of a groove over the cam angle."""
-        degrees = turn_degrees(samples)
-        points = self.cams.outer_wall.points(np.radians(degrees))[1]
-        return Table.of("outer_wall", _xy(degrees, points))
-
     def cutter_points(self, phi: Reals) -> Points:
         """Centre of the cutter [mm], in the cam's frame: C + r_c n, n outward."""
         radius = self.spec.cam.cutter_radius
@@ -528,20 +488,13 @@ class Making:
         reach = main.roller_radius - radius
         return profile.profile_points(phi, main.path(phi, 1), sense=main.sense, roller_radius=reach)
 
-    def cutter_table(self, samples: int | None) -> Table:
-        """The cutter's centre over the cam angle."""
-        degrees = turn_degrees(samples)
-        points = self.cutter_points(np.radians(degrees))
-        return Table.of("cutter", _xy(degrees, points))
-
     def radius_table(self, samples: int | None) -> Table:
         """Radius of the profile over its polar angle.
 
         Raises
             NoSolution - where the profile is not star-shaped
         """
-        degrees = turn_degrees(samples)
-        sense = self.spec.cam.sense
+        degrees, sense = turn_degrees(samples), self.spec.cam.sense
         near = np.linspace(0.0, _TURN, _CLOSE)
         back = -sense * np.unwrap(np.angle(self.points(near)))
         if not np.all(np.diff(back) > 0.0):
@@ -555,12 +508,8 @@ class Making:
             ahead = np.angle(self.points(middle) * np.exp(1j * sense * wanted)) * -sense > 0.0
             low, high = np.where(ahead, low, middle), np.where(ahead, middle, high)
         phi = np.where(0.5 * (low + high) > _TURN - 1e-13, 0.0, 0.5 * (low + high))
-        columns = {
-            "polar_angle": (degrees, "deg"),
-            "radius": (np.abs(self.points(phi)), "mm"),
-            "cam_angle": (np.degrees(phi), "deg"),
-        }
-        return Table.of("radius", columns)
+        columns = {"radius": (np.abs(self.points(phi)), "mm"), "cam_angle": (np.degrees(phi), "deg")}
+        return Table.of("radius", {"polar_angle": (degrees, "deg"), **columns})
 
     # Errors
 
@@ -628,11 +577,8 @@ class Making:
     def servo_rows(self) -> int | None:
         """Rows of the table, both ends; None without the section."""
         servo = self.spec.servo
-        if servo is None:
-            return None
-        if servo.rows is not None:
-            return servo.rows
-        assert servo.tolerance is not None, "one of both stands in the file"
+        if servo is None or servo.tolerance is None:
+            return None if servo is None else servo.rows
         return rows_for(self.cams.motion, servo.tolerance, rocks=self.spec.oscillates)
 
     @cached_property
@@ -648,5 +594,8 @@ class Making:
         return servo_table(self.cams.motion, rows, rocks=self.spec.oscillates)
 
 
-def _xy(degrees: Reals, points: Points) -> dict[str, tuple[Reals, str]]:
-    return {"cam_angle": (degrees, "deg"), "x": (points.real, "mm"), "y": (points.imag, "mm")}
+def curve_table(name: str, points: Callable[[Reals], Points], samples: int | None) -> Table:
+    """A curve in the cam's frame [mm] over the cam angle."""
+    degrees = turn_degrees(samples)
+    found = points(np.radians(degrees))
+    return Table.of(name, {"cam_angle": (degrees, "deg"), "x": (found.real, "mm"), "y": (found.imag, "mm")})

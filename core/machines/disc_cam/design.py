@@ -15,7 +15,7 @@ from gearlink.core.base.remedies.ways import Way, down, either, left_out, thinne
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property, keep
 from gearlink.core.base.wording import short
-from gearlink.core.machines.disc_cam.cams import FollowerCams, Making, Place
+from gearlink.core.machines.disc_cam.cams import FollowerCams, Making, Place, curve_table
 from gearlink.core.machines.disc_cam.spec import OscillatingFlat
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, maximum_over
@@ -74,19 +74,11 @@ _QUANTITIES = (
     "servo_rows",
     "servo_error",
 )
-_ROCKING: dict[str, str] = {
-    "lift_max": "deg",
-    **{f"velocity_{side}": "1" for side in ("max", "min")},
-    **{f"acceleration_{side}": "1/rad" for side in ("max", "min")},
-    **{f"jerk_{side}": "1/rad^2" for side in ("max", "min")},
-    **{f"follower_velocity_{side}": "rad/s" for side in ("max", "min")},
-    **{f"follower_acceleration_{side}": "rad/s^2" for side in ("max", "min")},
-    "spring_preload": "N m",
-    "lift_error_worst": "deg",
-    "lift_error_rss": "deg",
-    "acceleration_error": "rad/s^2",
-    "servo_error": "deg",
-}
+_OF_CURVES = {"velocity": "1", "acceleration": "1/rad", "jerk": "1/rad^2"}
+_OF_CURVES |= {"follower_velocity": "rad/s", "follower_acceleration": "rad/s^2"}
+_ROCKING = {f"{curve}_{side}": unit for curve, unit in _OF_CURVES.items() for side in ("max", "min")}
+_ROCKING |= dict.fromkeys(("lift_max", "lift_error_worst", "lift_error_rss", "servo_error"), "deg")
+_ROCKING |= {"spring_preload": "N m", "acceleration_error": "rad/s^2"}
 _CHECKS = (
     "pressure-angle",
     "cam-undercut",
@@ -230,31 +222,23 @@ class DiscCamDesign(OfFollower, Design):
     @property
     def base_radius(self) -> float:
         """Cam axis to the surface at lift 0 [mm]."""
-        return self.cams.place.radius - getattr(self.spec.follower, "roller_radius", 0.0)
+        return self.cams.place.radius - float(self.cams.roller_radius)
 
     @property
     def sized_base_radius(self) -> float | None:
         """That radius where it was found for a face or an edge [mm]."""
         return None if self.spec.rolls or self.spec.cam.size is None else self.base_radius
 
-    @property
-    def contour(self) -> Contour | None:
-        """The sizes of a profile that the file gives by its arcs."""
-        return self.cams.contour
-
+    contour: Contour | None = placed("cams.contour")
     nose_radius: float | None = placed("contour.nose")
     nose_distance: float | None = placed("contour.distance")
+    action_angle: float | None = placed("contour.whole")
 
     @property
     def flank_radius(self) -> float | None:
         """Radius of the flanks, negative where hollow [mm]; None where they are straight, or there are none."""
         flank = None if self.contour is None else self.contour.flank
         return None if flank is None or math.isinf(flank) else flank
-
-    @property
-    def action_angle(self) -> float | None:
-        """Cam angle from the start of the rise to the end of the return [rad]."""
-        return None if self.contour is None else self.contour.whole
 
     @property
     def offset(self) -> float | None:
@@ -298,7 +282,7 @@ class DiscCamDesign(OfFollower, Design):
         """Main cam, and the return cam where there is one."""
         if self.spec.is_flat:
             return (self.cams.flat,)
-        return (self.cams.main,) if self.cams.back is None else (self.cams.main, self.cams.back)
+        return self.cams.discs
 
     @staticmethod
     def _one_or_both(values: list[Any]) -> Any:
@@ -327,8 +311,7 @@ class DiscCamDesign(OfFollower, Design):
         """Minimum radius of the hollow flanks of the profile [mm]; None where there are none."""
         if self.spec.is_flat:
             return None
-        found = [self.cams.hollow_of(cam) for cam in (self.cams.main, self.cams.back) if cam is not None]
-        values = [None if each is None else each[0] for each in found]
+        values = [None if (found := self.cams.hollow_of(cam)) is None else found[0] for cam in self.cams.discs]
         return None if all(each is None for each in values) else self._one_or_both(values)
 
     @property
@@ -346,26 +329,17 @@ class DiscCamDesign(OfFollower, Design):
         """The profiles that are cut."""
         return (self.cams.main, self.cams.outer_wall) if self.spec.closure == "groove" else self.profiles
 
-    def _contact_place(self, k: int) -> float | None:
-        return self.cams.flat.contact_places[k] if self.spec.is_flat else None
-
     @property
-    def contact_place_max(self) -> float | None:
-        """Maximum place of the contact along a flat face [mm]."""
-        return self._contact_place(1)
+    def _contact_places(self) -> tuple[float, float] | None:
+        return self.cams.flat.contact_places if self.spec.is_flat else None
 
-    @property
-    def contact_place_min(self) -> float | None:
-        """Minimum place of the contact along a flat face [mm]."""
-        return self._contact_place(0)
+    contact_place_max: float | None = placed("_contact_places.1")
+    contact_place_min: float | None = placed("_contact_places.0")
 
     @property
     def face_length(self) -> float | None:
         """Length of the flat face that the contact takes [mm]."""
-        if not self.spec.is_flat:
-            return None
-        low, high = self.cams.flat.contact_places
-        return high - low
+        return None if (places := self._contact_places) is None else places[1] - places[0]
 
     spring_preload: float | None = placed("closing.preload")
     lift_off_speed: float | None = placed("closing.lift_off_speed")
@@ -393,7 +367,6 @@ class DiscCamDesign(OfFollower, Design):
 
     def table_arcs(self, _samples: int | None = None) -> Table:
         """The arcs of a profile, with velocity and acceleration of the follower at both ends of each."""
-        self.require_table("arcs")
         assert self.contour is not None
         return arcs_table(self.contour, self.follower_motion, self.speed, oscillates=self.spec.oscillates)
 
@@ -403,18 +376,15 @@ class DiscCamDesign(OfFollower, Design):
 
     def table_return_cam(self, samples: int | None = None) -> Table:
         """The return cam."""
-        self.require_table("return_cam")
         return self.profiles[1].table("return_cam", samples)
 
     def table_outer_wall(self, samples: int | None = None) -> Table:
         """The outer wall of a groove."""
-        self.require_table("outer_wall")
-        return self.making.wall_table(samples)
+        return curve_table("outer_wall", lambda phi: self.cams.outer_wall.points(phi)[1], samples)
 
     def table_cutter(self, samples: int | None = None) -> Table:
         """The cutter's centre over the cam angle."""
-        self.require_table("cutter")
-        return self.making.cutter_table(samples)
+        return curve_table("cutter", self.making.cutter_points, samples)
 
     def table_radius(self, samples: int | None = None) -> Table:
         """Radius of the profile over its polar angle."""
@@ -422,12 +392,10 @@ class DiscCamDesign(OfFollower, Design):
 
     def table_errors(self, samples: int | None = None) -> Table:
         """Errors of the lift over the cam angle."""
-        self.require_table("errors")
         return self.making.errors_table(samples)
 
     def table_servo(self, _samples: int | None = None) -> Table:
         """The table of a drive instead of the cam."""
-        self.require_table("servo")
         return self.making.servo_table()
 
     def check_pressure_angle(self) -> Iterator[Check]:
@@ -444,21 +412,18 @@ class DiscCamDesign(OfFollower, Design):
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402: roller against the pitch curve, or the profile under a flat face or an edge."""
         if self.spec.rolls:
-            cams = [cam for cam in (self.cams.main, self.cams.back) if cam is not None]
-            yield from undercut_checks(cams, plainly=_LARGER, profile_stays=self.spec.profile is not None)
+            yield from undercut_checks(self.cams.discs, plainly=_LARGER, profile_stays=self.spec.profile is not None)
             return
         limit = self.spec.limits.curvature_radius
         if self.spec.is_flat:
-            yield flat_undercut_check(self.cams.flat, limit, self._larger_under_face(limit))
+            follower, needed = self.spec.follower, self.base_radius + limit - self.cams.flat.min_curvature_radius.value
+            larger = "increase cam.base_radius by {} mm"
+            # where a face rocks, the radius ends at its centre distance
+            if isinstance(follower, OscillatingFlat) and needed >= follower.face_offset + follower.center_distance:
+                larger = "give the motion more cam angle, or less lift"
+            yield flat_undercut_check(self.cams.flat, limit, larger)
         else:
             yield edge_check(self.cams.sharpest, limit, _LARGER)
-
-    def _larger_under_face(self, limit: float) -> str:
-        """What enlarges the profile under a flat face; where one rocks, the radius ends at its centre distance."""
-        follower, needed = self.spec.follower, self.base_radius + limit - self.cams.flat.min_curvature_radius.value
-        if isinstance(follower, OscillatingFlat) and needed >= follower.face_offset + follower.center_distance:
-            return "give the motion more cam angle, or less lift"
-        return "increase cam.base_radius by {} mm"
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the profile against its shaft."""
@@ -470,11 +435,8 @@ class DiscCamDesign(OfFollower, Design):
             if spec.cam.size is None:
                 return f"set {spec.radius_key} to {larger}"
             center, given = self.center_distance, getattr(spec.follower, "center_distance", None)
-            pivot = (
-                ""
-                if given is not None or center is None
-                else f", with follower.center_distance: {safely_above(center)}"
-            )
+            found = given is None and center is not None
+            pivot = f", with follower.center_distance: {safely_above(center)}" if found else ""  # type: ignore[arg-type]
             return f"replace cam.size by {spec.radius_key}: {larger}{pivot}"
 
         yield from hub_checks(SHAFT_CLEARANCE, self.profiles, self.spec.cam.shaft_radius, farther)
@@ -503,9 +465,8 @@ class DiscCamDesign(OfFollower, Design):
             return
         speed = closing.lift_off_speed
         if speed is None:
-            yield LIFT_OFF.check(
-                "pass", "the follower does not lift off its cam at any speed", None, spec.speed, "1/min"
-            )
+            what = "the follower does not lift off its cam at any speed"
+            yield LIFT_OFF.check("pass", what, None, spec.speed, "1/min")
             return
         status: Status = "fail" if speed <= spec.speed else "warn" if speed < _RESERVE * spec.speed else "pass"
         fix = ""
@@ -516,11 +477,9 @@ class DiscCamDesign(OfFollower, Design):
                 more, key = more - (closing.preload or 0.0) + spec.spring.least_force, "least_force"
             unit = "N m" if spec.oscillates else "N"
             fix = f"increase spring.{key} to {safely_above(more)} {unit} (10 % speed margin)"
-        at = f"cam angle {short(math.degrees(found.place))} deg"
+        what, at = "lift-off speed of the follower", f"cam angle {short(math.degrees(found.place))} deg"
         most = _RESERVE * spec.speed
-        yield LIFT_OFF.check(
-            status, "lift-off speed of the follower", speed, spec.speed, "1/min", recommended=most, at=at, fix=fix
-        )
+        yield LIFT_OFF.check(status, what, speed, spec.speed, "1/min", recommended=most, at=at, fix=fix)
 
     def check_face_length(self) -> Iterator[Check]:
         """GL408, where the file gives the face."""
@@ -545,7 +504,7 @@ class DiscCamDesign(OfFollower, Design):
         """GL409 of a groove."""
         if self.spec.closure != "groove":
             return
-        roller, hollow = self.cams.main.roller_radius, self.cams.hollow
+        roller, hollow = self.cams.main.roller_radius, self.cams.hollow_of(self.cams.main)
         if hollow is None:
             what = "the pitch curve is convex: the outer wall is not undercut"
             yield OUTER_WALL.check("pass", what, 0.0, roller, "mm", shown=NO_NUMBER)
@@ -562,13 +521,11 @@ class DiscCamDesign(OfFollower, Design):
         if cutter is None:
             return
         found = self.min_concave_radius
-        least = min(
-            (each for each in (found if isinstance(found, list) else [found]) if each is not None), default=None
-        )
+        values = found if isinstance(found, list) else [found]
+        least = min((each for each in values if each is not None), default=None)
         if least is None:
-            yield CUTTER_RADIUS.check(
-                "pass", "the profile has no concave flank: any cutter fits", cutter, None, "mm", shown=NO_NUMBER
-            )
+            what = "the profile has no concave flank: any cutter fits"
+            yield CUTTER_RADIUS.check("pass", what, cutter, None, "mm", shown=NO_NUMBER)
             return
         what, aside = "cutter radius", "minimum concave radius of the profile"
         status: Status = "fail" if cutter >= least else "pass"
@@ -596,10 +553,9 @@ class Closing:
     @cached_property
     def inertia(self) -> float:
         """Force per acceleration of the lift [N/(mm/s^2), or N m/(rad/s^2)]."""
-        follower = self.spec.follower
         if self.spec.oscillates:
-            return float(getattr(follower, "inertia", None) or 0.0)
-        return float(getattr(follower, "mass", None) or 0.0) * MILLIMETER
+            return float(self.follower.inertia or 0.0)
+        return float(self.follower.mass or 0.0) * MILLIMETER
 
     @property
     def speed(self) -> float:
@@ -652,10 +608,8 @@ class Closing:
     def preload(self) -> float | None:
         """Force of the spring at lift 0, given or the minimum [N, or N m]; None without a spring."""
         spring = self.spec.spring
-        if spring is None:
-            return None
-        if spring.preload is not None:
-            return spring.preload
+        if spring is None or spring.preload is not None:
+            return None if spring is None else spring.preload
         return max(0.0, self.lacking.value)
 
     @cached_property
@@ -693,7 +647,6 @@ class Closing:
         """
         if self.spec.spring is None or not self.inertia:
             return None
-
         if self.loosest.value >= 0.0:  # the spring alone does not hold it there
             return Extreme(math.inf, self.loosest.place)
         return self.lightest
@@ -706,11 +659,7 @@ class Closing:
     @cached_property
     def lightest(self) -> Extreme:
         """Maximum -m s''/T_static and its cam angle, of a spring that holds the follower on the cam at rest."""
-
-        def share(phi: Reals) -> Reals:
-            return np.asarray(-self.inertia * self.cams.motion.evaluate(phi, 2)[2] / self.static(phi))
-
-        return self._most(share)
+        return self._most(lambda phi: -self.inertia * self.cams.motion.evaluate(phi, 2)[2] / self.static(phi))
 
     def preload_for(self, speed: float) -> float:
         """Preload that keeps the follower on the cam up to a speed [rad/s]."""
@@ -780,14 +729,7 @@ def found_together(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> No
     """
     if designs[0].spec.arcs is not None:
         raise Unlike
-    spec = together([design.spec for design in designs], _ALIKE)
-    _shared_motion(designs, names)
-    _found(designs, spec, names)
-
-
-def _shared_motion(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> None:
-    """The motion of the first, and what is of it alone."""
-    first = designs[0]
+    spec, first = together([design.spec for design in designs], _ALIKE), designs[0]
     for design in designs:
         keep(design.cams, motion=first.cams.motion)
     hand_out(first.cams, [design.cams for design in designs], "lifts")
@@ -795,10 +737,6 @@ def _shared_motion(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> No
         keep(design, motion_extremes=first.motion_extremes)
     if "servo_error" in names:
         hand_out(first.making, [design.making for design in designs], "servo_rows", "servo_error")
-
-
-def _found(designs: Sequence[DiscCamDesign], spec: DiscCamSpec, names: Sequence[str]) -> None:
-    first = designs[0]
     many = type(first)(spec)
     hand_out(first.cams, [many.cams], "lifts")
     keep(many.cams, motion=first.cams.motion)

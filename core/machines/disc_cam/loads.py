@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.spec import CamLoads
 
@@ -59,10 +58,7 @@ class FollowerCamLoads(_Loads):
         def design(self) -> DiscCamDesign:
             """The geometry."""
 
-    @property
-    def closing(self) -> Closing:
-        """Spring, preload and lift-off."""
-        return self.design.closing
+    closing: Closing = placed("design.closing")
 
     @property
     def sliding(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -81,8 +77,7 @@ class FollowerCamLoads(_Loads):
         """Those of the follower; a rocker's centre of mass is its pivot."""
         from gearlink.core.mechanism.dynamics import Mass
 
-        mass = float(getattr(self.spec.follower, "mass", None) or 0.0)
-        inertia = float(getattr(self.spec.follower, "inertia", None) or 0.0)
+        mass, inertia = (float(getattr(self.spec.follower, key, None) or 0.0) for key in ("mass", "inertia"))
         return {"follower": Mass(mass, inertia)} if mass or inertia else {}
 
     @cached_property
@@ -113,8 +108,7 @@ class FollowerCamLoads(_Loads):
         lift = self.design.cams.motion.evaluate(phi, 0)[0]
         press = (self.closing.preload or 0.0) + self.closing.rate * lift
         if self.spec.oscillates:
-            side = float(getattr(self.spec.follower, "side", 1))
-            return [Torque("follower", np.asarray(side * press * NEWTON_METER))]
+            return [Torque("follower", np.asarray(float(self.design.cams.follower.side) * press * NEWTON_METER))]
         push = np.asarray(-press * self.design.cams.direction, dtype=np.complex128)
         return [Force("follower", push, mechanism.links["follower"].origin)]
 
@@ -126,10 +120,8 @@ class FollowerCamLoads(_Loads):
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The dwells."""
-        found: list[tuple[float, float]] = []
-        for stroke in self.design.cams.motion.strokes:
-            if stroke.sense == 0:
-                found.append((stroke.start, stroke.end - stroke.start))
+        strokes = self.design.cams.motion.strokes
+        found = [(stroke.start, stroke.end - stroke.start) for stroke in strokes if stroke.sense == 0]
         if len(found) > 1 and found[0][0] == 0.0 and math.isclose(sum(found[-1]), 2.0 * math.pi):
             (_, first), (start, last) = found[0], found.pop()
             found[0] = (start, first + last)
@@ -173,10 +165,6 @@ class FollowerCamLoads(_Loads):
         """A roller, a flat face or a knife edge."""
         return super().called(name) if self.spec.rolls else "flat face" if self.spec.is_flat else "knife edge"
 
-    def _cam(self, name: str) -> DiscCam:
-        back = self.design.cams.back
-        return back if name == "return" and back is not None else self.design.cams.main
-
     def roller_at(self, name: str, phi: Reals) -> Any:
         """A roller from the cam axis; a flat face and an edge give what their contact has."""
         if self.spec.is_flat:
@@ -185,7 +173,7 @@ class FollowerCamLoads(_Loads):
         if self.spec.is_edge:
             edge = roller_on(self.design.cams.main, phi)
             return SlidingOnCam(edge.sense, edge.position, edge.normal, np.zeros_like(phi))
-        return roller_on(self._cam(name), phi)
+        return roller_on(self.design.cams.discs[self.own_rollers.index(name)], phi)
 
     def side_force(self, phi: Reals) -> Reals:
         """Force along the normal of the main roller [N], positive on the main cam."""

@@ -9,13 +9,14 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.many_designs import column, hand_on, hand_out, sought, stacked, together
 from gearlink.core.base.remedies.ways import REFUSAL
@@ -207,11 +208,8 @@ class MeasuredCam:
         y1 = 0.5 * q1 / y
         y2 = (0.5 * q2 - y1 * y1) / y
         u = self.direction
-        return (
-            (y, y1, y2),
-            [np.asarray(u * each) for each in (y - 1j * self.offset, y1, y2)],
-            np.full_like(y, u, dtype=np.complex128),
-        )
+        place = [np.asarray(u * each) for each in (y - 1j * self.offset, y1, y2)]
+        return (y, y1, y2), place, np.full_like(y, u, dtype=np.complex128)
 
     def _on_rocker(
         self, pivot: complex, q: Reals, q1: Reals, q2: Reals
@@ -260,11 +258,10 @@ class MeasuredCam:
         last = math.inf
         first = angle[..., :1] if angle.ndim > 1 else angle[0]
         turned = first + np.mod(phi - first, TURN)
-        t = (
-            np.array([np.interp(turned[k], row, grid) for k, row in enumerate(angle)])
-            if angle.ndim > 1
-            else (np.asarray(np.interp(turned, angle, grid), dtype=np.float64))
-        )
+        if angle.ndim > 1:
+            t = np.array([np.interp(turned[k], row, grid) for k, row in enumerate(angle)])
+        else:
+            t = np.asarray(np.interp(turned, angle, grid), dtype=np.float64)
         for _ in range(_STEPS):
             found = self.follower(t)
             off = found.cam_angle[0] - turned
@@ -366,13 +363,8 @@ def phases_of(value: Reals, tolerance: float) -> list[MeasuredPhase]:
         cuts = [first, *_turning(value, first, last), last]
         heights = [levels[k], *(float(value[i % count]) for i in cuts[1:-1]), levels[after]]
         pairs = zip(pairwise(cuts), pairwise(heights), strict=True)
-        found.append(
-            [
-                _stroke(value, *ends, *rise, free=(ends[0] == first, ends[1] == last))
-                for ends, rise in pairs
-                if ends[1] - ends[0] > 1
-            ]
-        )
+        inner = [(ends, rise) for ends, rise in pairs if ends[1] - ends[0] > 1]
+        found.append([_stroke(value, a, b, *rise, free=(a == first, b == last)) for (a, b), rise in inner])
     strokes = [each for between in found for each in between]
     for k, each in enumerate(inside):
         start, length = dwells[k]
@@ -393,9 +385,7 @@ def _dwells(value: Reals, tolerance: float) -> list[tuple[int, int]]:
     """First place and number of places of the dwells, in their order; the longest are taken first."""
     count = value.size
     twice = np.concatenate([value, value])
-    lengths = np.zeros(count, dtype=int)
-    high = np.array(twice[:count])
-    low = np.array(twice[:count])
+    lengths, high, low = np.zeros(count, dtype=int), np.array(value), np.array(value)
     open_ = np.ones(count, dtype=bool)
     for step in range(1, count + 1):
         lengths[open_] = step
@@ -474,7 +464,6 @@ def _fitted(name: str, phi: Reals, share: Reals, free: tuple[bool, bool]) -> tup
     return float(ends[0]), float(ends[1]), float(np.abs(residual).max())
 
 
-_TURN = 2.0 * math.pi
 QUANTITIES = (
     "swing",
     "stroke",
@@ -509,15 +498,10 @@ class MeasuredMotion:
     def __init__(self, design: MeasuredCamDesign) -> None:
         self.design, self.cam = design, design.cam
 
-    @property
-    def least(self) -> float:
-        """Minimum coordinate of the follower, outward [rad or mm]."""
-        return self.design.least
-
     def evaluate(self, phi: Reals, order: int = 2, *, side: int = 1) -> list[Reals]:
         """Lift and its derivatives by the cam angle [mm or rad]; `side` is for laws that jump."""
         del side
-        return _lift(self.cam, self.cam.motion(phi), self.least)[: order + 1]
+        return _lift(self.cam, self.cam.motion(phi), self.design.least)[: order + 1]
 
     @cached_property
     def whole(self) -> list[Stroke]:
@@ -527,7 +511,8 @@ class MeasuredMotion:
             The ends of the phases are fitted and may miss each other a little: strokes meet in the middle of that.
         """
         phases, outward = self.design.phases, round(self.cam.outward_sense)
-        apart = [(after.start - before.end + math.pi) % _TURN - math.pi for before, after in _round(phases)]
+        beside = zip(phases, [*phases[1:], *phases[:1]], strict=True)
+        apart = [(after.start - before.end + math.pi) % TURN - math.pi for before, after in beside]
         return [
             Stroke(each.start - 0.5 * apart[k - 1], each.end + 0.5 * apart[k], _SENSES[each.motion] * outward)
             for k, each in enumerate(phases)
@@ -536,18 +521,9 @@ class MeasuredMotion:
     @cached_property
     def strokes(self) -> tuple[Stroke, ...]:
         """The same within a revolution: what runs over its end in two parts."""
-        found = []
-        for begin, end, sense in self.whole:
-            for off in (-_TURN, 0.0, _TURN):
-                low, high = max(begin + off, 0.0), min(end + off, _TURN)
-                if high > low:
-                    found.append(Stroke(low, high, sense))
-        return tuple(sorted(found))
-
-
-def _round(phases: list[MeasuredPhase]) -> list[tuple[MeasuredPhase, MeasuredPhase]]:
-    """Each phase and the one after it, over the end of the revolution."""
-    return list(zip(phases, [*phases[1:], *phases[:1]], strict=True))
+        shifted = ((begin + off, end + off, sense) for begin, end, sense in self.whole for off in (-TURN, 0.0, TURN))
+        found = (Stroke(max(begin, 0.0), min(end, TURN), sense) for begin, end, sense in shifted)
+        return tuple(sorted(each for each in found if each.end > each.start))
 
 
 class OverProfile:
@@ -643,7 +619,7 @@ class MeasuredCams(FollowerCams):
     @cached_property
     def place(self) -> Place:
         """The roller at lift 0, where it is nearest to the cam axis."""
-        least, follower = self.motion.least, self.follower
+        least, follower = self.design.least, self.follower
         if not self.spec.oscillates:
             return Place(math.hypot(least, follower.offset), follower.offset)
         f, l = follower.center_distance, follower.arm  # noqa: E741
@@ -684,10 +660,6 @@ class MeasuredCamDesign(DiscCamDesign):
         """The cam as a disc cam."""
         return MeasuredCams(self)
 
-    @property
-    def _oscillates(self) -> bool:
-        return self.spec.oscillates
-
     @cached_property
     def points(self) -> tuple[Reals, Reals]:
         """Angles [rad] and radii [mm] of the measured profile."""
@@ -713,8 +685,7 @@ class MeasuredCamDesign(DiscCamDesign):
     def residuals(self) -> Reals:
         """Measured radii less those of the series [mm]."""
         t, radius = self.points
-        found: Reals = radius - self.cam.series.at(t, 0)[0]
-        return found
+        return np.asarray(radius - self.cam.series.at(t, 0)[0])
 
     @property
     def fit_rms(self) -> float:
@@ -726,26 +697,21 @@ class MeasuredCamDesign(DiscCamDesign):
         """Maximum of it [mm]."""
         return float(abs(self.residuals).max())
 
-    @property
-    def fit_harmonics(self) -> int:
-        """Harmonics of the series."""
-        return self.spec.order
+    fit_harmonics: int = placed("spec.order")
 
     @cached_property
     def span(self) -> tuple[float, float]:
         """Minimum and maximum coordinate of the follower [rad or mm]."""
         self.require_runs()
+        return self._ends(lambda t: self.cam.follower(t).value[0])
 
-        def value(t: Reals) -> Reals:
-            return self.cam.follower(t).value[0]
-
-        return minimum_over(value, samples=self.samples).value, maximum_over(value, samples=self.samples).value
+    def _ends(self, course: Callable[[Reals], Reals]) -> tuple[float, float]:
+        return minimum_over(course, samples=self.samples).value, maximum_over(course, samples=self.samples).value
 
     @cached_property
     def least(self) -> float:
         """Minimum coordinate outward, that of lift 0 [rad or mm]."""
-        found: float = min(self.cam.outward(value) for value in self.span)
-        return found
+        return float(min(self.cam.outward(value) for value in self.span))
 
     @property
     def samples(self) -> int:
@@ -759,12 +725,12 @@ class MeasuredCamDesign(DiscCamDesign):
     @property
     def swing(self) -> float | None:
         """Swing of an oscillating follower [rad]."""
-        return self.span[1] - self.span[0] if self._oscillates else None
+        return self.span[1] - self.span[0] if self.spec.oscillates else None
 
     @property
     def stroke(self) -> float | None:
         """Stroke of a translating follower [mm]."""
-        return None if self._oscillates else self.span[1] - self.span[0]
+        return None if self.spec.oscillates else self.span[1] - self.span[0]
 
     @cached_property
     def sharpest(self) -> Extreme:
@@ -782,20 +748,13 @@ class MeasuredCamDesign(DiscCamDesign):
     def rates(self) -> tuple[float, float]:
         """Maximum magnitude of velocity and acceleration by the cam angle [mm or rad]."""
         self.require_runs()
-        first, second = (
-            maximum_over(lambda t, k=k: np.abs(self.cam.over_profile(t)[k]), samples=self.samples).value  # type: ignore[misc]
-            for k in (1, 2)
-        )
-        return first, second
+        first, second = (partial(lambda k, t: np.abs(self.cam.over_profile(t)[k]), k) for k in (1, 2))
+        return maximum_over(first, samples=self.samples).value, maximum_over(second, samples=self.samples).value
 
     @cached_property
     def reach(self) -> tuple[float, float]:
         """Minimum and maximum distance of the roller's centre from the cam axis [mm]."""
-
-        def distance(t: Reals) -> Reals:
-            return np.abs(self.cam.contact(t).center)
-
-        return minimum_over(distance, samples=self.samples).value, maximum_over(distance, samples=self.samples).value
+        return self._ends(lambda t: np.abs(self.cam.contact(t).center))
 
     @cached_property
     def star_shaped(self) -> bool:
@@ -827,7 +786,7 @@ class MeasuredCamDesign(DiscCamDesign):
 
     def cam_angle(self, t: float) -> float:
         """Cam angle at which a place on the profile is touched [rad]."""
-        return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], _TURN))
+        return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], TURN))
 
     @property
     def follower_velocity_max(self) -> float | None:  # type: ignore[override]
@@ -840,9 +799,9 @@ class MeasuredCamDesign(DiscCamDesign):
     @cached_property
     def phases(self) -> list[MeasuredPhase]:
         """Dwells and strokes."""
-        value = self.cam.motion(np.linspace(0.0, _TURN, ROWS, endpoint=False))[0]
+        value = self.cam.motion(np.linspace(0.0, TURN, ROWS, endpoint=False))[0]
         tolerance = self.spec.dwell_tolerance
-        return phases_of(value, math.radians(tolerance) if self._oscillates else tolerance)
+        return phases_of(value, math.radians(tolerance) if self.spec.oscillates else tolerance)
 
     # Tables
 
@@ -851,25 +810,21 @@ class MeasuredCamDesign(DiscCamDesign):
         degrees = turn_degrees(samples)
         phi = np.asarray(np.radians(degrees), dtype=np.float64)
         value, speed, acceleration = self.cam.motion(phi)
-        if self._oscillates:
+        if self.spec.oscillates:
             columns = {"cam_angle": (degrees, "deg"), "follower_angle": (np.degrees(value), "deg")}
             units = ("rad/rad", "rad/rad^2")
         else:
             columns = {"cam_angle": (degrees, "deg"), "lift": (value - self.span[0], "mm")}
             units = ("mm/rad", "mm/rad^2")
         t, left = self.points[0], self.residuals
-        residual = np.interp(np.mod(self.cam.at_cam_angle(phi), _TURN), np.mod(t, _TURN), left, period=_TURN)
-        columns |= {
-            "velocity": (speed, units[0]),
-            "acceleration": (acceleration, units[1]),
-            "residual": (residual, "mm"),
-        }
-        return Table.of("law", columns)
+        residual = np.interp(np.mod(self.cam.at_cam_angle(phi), TURN), np.mod(t, TURN), left, period=TURN)
+        rates = {"velocity": (speed, units[0]), "acceleration": (acceleration, units[1]), "residual": (residual, "mm")}
+        return Table.of("law", columns | rates)
 
     def table_phases(self, _samples: int | None = None) -> Table:
         """Dwells and strokes over the cam angle, with the law that comes nearest to each stroke."""
-        unit = "deg" if self._oscillates else "mm"
-        scale = math.degrees(1.0) if self._oscillates else 1.0
+        unit = "deg" if self.spec.oscillates else "mm"
+        scale = math.degrees(1.0) if self.spec.oscillates else 1.0
         columns: dict[str, tuple[list[Any], str]] = {
             "start": ([math.degrees(each.start) for each in self.phases], "deg"),
             "end": ([math.degrees(each.end) for each in self.phases], "deg"),
