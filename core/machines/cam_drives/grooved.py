@@ -61,6 +61,10 @@ class Path(NamedTuple):
     way: Points
 
 
+def _bend(path: Path) -> Reals:
+    return np.asarray((np.conj(path.first) * path.second).imag / np.abs(path.first) ** 3)
+
+
 @dataclass(frozen=True)
 class Groove:
     """A closed groove about the axis of the input.
@@ -89,9 +93,8 @@ class Groove:
         still = speed <= _STANDS * np.max(np.abs(path.place))
         if np.any(still):
             place = math.degrees(float(theta[int(np.argmax(still))]))
-            raise NoSolution(
-                f"the roller is at rest in its groove at input angle {short(place)} deg", fix="change the motion"
-            )
+            message = f"the roller is at rest in its groove at input angle {short(place)} deg"
+            raise NoSolution(message, fix="change the motion")
         return np.asarray(path.first / speed)
 
     def pressure_angle(self, theta: Reals) -> Reals:
@@ -102,9 +105,7 @@ class Groove:
 
     def curvature(self, theta: Reals) -> Reals:
         """Curvature of the path [1/mm], convex seen from within positive."""
-        path = self.path(theta)
-        bend = (np.conj(path.first) * path.second).imag / np.abs(path.first) ** 3
-        return np.asarray(self.sense * bend)
+        return self.sense * _bend(self.path(theta))
 
     def radius(self, theta: Reals) -> Reals:
         """Distance of the roller from the axis of the input [mm]."""
@@ -119,27 +120,8 @@ class Groove:
     @cached_property
     def extremes(self) -> list[Extreme]:
         """Maximum pressure angle, maximum and minimum distance of the roller from the axis."""
-        wanted: list[tuple[Function, bool]] = [
-            (lambda theta: np.abs(self.pressure_angle(theta)), True),
-            (self.radius, True),
-            (self.radius, False),
-        ]
-        return extremes_over(wanted, joints=self.joints, samples=_SAMPLES)
-
-    @property
-    def steepest(self) -> Extreme:
-        """Maximum pressure angle [rad] and its place."""
-        return self.extremes[0]
-
-    @property
-    def max_radius(self) -> float:
-        """Maximum distance of the roller's centre from the axis [mm]."""
-        return self.extremes[1].value
-
-    @property
-    def min_radius(self) -> float:
-        """Minimum distance [mm]."""
-        return self.extremes[2].value
+        steep: tuple[Function, bool] = (lambda theta: np.abs(self.pressure_angle(theta)), True)
+        return extremes_over([steep, (self.radius, True), (self.radius, False)], joints=self.joints, samples=_SAMPLES)
 
     @cached_property
     def sharpest(self) -> Extreme:
@@ -169,40 +151,8 @@ class Groove:
     def star_shaped(self) -> tuple[bool, bool]:
         """Whether the polar angle of inner and outer wall runs one way: without a cusp none then crosses itself."""
         closed = np.radians(turn_degrees(2 * _SAMPLES))
-        found: list[Any] = []
-        for wall in self.walls(closed):
-            turn = self.sense * (np.conj(wall) * np.roll(wall, -1, axis=-1)).imag
-            found.append(np.all(turn > 0.0, axis=-1))
-        return found[0], found[1]
-
-    def _wall(self, side: int) -> Callable[[Reals], tuple[Points, Points]]:
-        return lambda theta: (self.path(theta).place, self.walls(theta)[side])
-
-    # Checks
-
-    def check_pressure_angle(self, limit: float, remedy: str) -> Check:
-        """GL401; the limit in degrees."""
-        value, place = math.degrees(self.steepest.value), math.degrees(self.steepest.place)
-        status: Status = "fail" if is_steep(value, limit) else "pass"
-        what, at = "pressure angle in the groove", f"input angle {short(place)} deg"
-        return PRESSURE_ANGLE.check(status, what, value, limit, "deg", at=at, fix=remedy)
-
-    def check_undercut(self, remedy: str) -> Iterator[Check]:
-        """GL402 of both walls: the roller against the minimum radius of the path, and what it cuts elsewhere."""
-        for name, found, side in (("inner", self.sharpest, 0), ("outer", self.hollow, 1)):
-            share = self.roller_radius / found.value
-            status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"
-            what, at = f"roller radius, {name} wall", f"input angle {short(math.degrees(found.place))} deg"
-            shown = against_curvature(self.roller_radius, found.value, status)
-            if status == "pass" and not self.star_shaped[side]:
-                cut = undercut(self._wall(side), self.roller_radius)
-                if cut.depth > _CUT * self.roller_radius:
-                    status, what = "fail", f"cut of the roller into the {name} wall"
-                    shown, at = (
-                        Compared(cut.depth, 0.0, "mm", "<="),
-                        f"input angle {short(math.degrees(cut.cam_angle))} deg",
-                    )
-            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=remedy)
+        inner, outer = (self.sense * (np.conj(w) * np.roll(w, -1, axis=-1)).imag > 0.0 for w in self.walls(closed))
+        return np.all(inner, axis=-1), np.all(outer, axis=-1)
 
 
 _GROOVE = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
@@ -282,10 +232,10 @@ class Grooved(RealSpeed, Design):
         self.require_closed()
         return Groove(self.path, self.spec.roller_radius, self.output_motion.joints)
 
-    max_pressure_angle: float = placed("groove.steepest.value")
+    max_pressure_angle: float = placed("groove.extremes.0.value")
     min_curvature_radius: float = placed("groove.sharpest.value")
-    max_radius: float = placed("groove.max_radius")
-    min_radius: float = placed("groove.min_radius")
+    max_radius: float = placed("groove.extremes.1.value")
+    min_radius: float = placed("groove.extremes.2.value")
 
     @cached_property
     def _rates(self) -> list[Extreme]:
@@ -294,10 +244,7 @@ class Grooved(RealSpeed, Design):
         def speed(theta: Reals) -> Reals:
             return motion.evaluate(theta, 1)[1]
 
-        def acceleration(theta: Reals) -> Reals:
-            return abs(motion.evaluate(theta, 2)[2])
-
-        wanted = [(speed, True), (speed, False), (acceleration, True)]
+        wanted = [(speed, True), (speed, False), (lambda theta: abs(motion.evaluate(theta, 2)[2]), True)]
         return extremes_over(wanted, joints=motion.joints, samples=_SAMPLES)
 
     def ends(self, course: Callable[[Reals], Reals]) -> tuple[Extreme, Extreme]:
@@ -313,16 +260,10 @@ class Grooved(RealSpeed, Design):
     output_speed_min: float | None = per_time("speed_ratio_min", 1)
     output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
 
-    def motion_columns(self, _theta: Reals, /) -> dict[str, tuple[Any, str]]:
-        """Further columns of the table of the motion."""
-        return {}
-
-    def table_motion(self, samples: int | None = None) -> Table:
+    def table_motion(self, samples: int | None = None, **beside: tuple[Any, str]) -> Table:
         """The output over a revolution of the input."""
         self.require_closed()
-        shown = of_output(self.moving.outputs[0].course)
-        beside = self.motion_columns(np.radians(turn_degrees(samples)))
-        return motion_table("motion", self, shown, samples, beside=beside)
+        return motion_table("motion", self, of_output(self.moving.outputs[0].course), samples, beside=beside)
 
     def table_main_cam(self, samples: int | None = None) -> Table:
         """The groove: path of the roller, both walls, pressure angle, curvature."""
@@ -330,11 +271,26 @@ class Grooved(RealSpeed, Design):
 
     def check_pressure_angle(self) -> Check:
         """GL401."""
-        return self.groove.check_pressure_angle(self.spec.limits.pressure_angle, self.larger)
+        steepest, limit = self.groove.extremes[0], self.spec.limits.pressure_angle
+        value, at = math.degrees(steepest.value), f"input angle {short(math.degrees(steepest.place))} deg"
+        status: Status = "fail" if is_steep(value, limit) else "pass"
+        what = "pressure angle in the groove"
+        return PRESSURE_ANGLE.check(status, what, value, limit, "deg", at=at, fix=self.larger)
 
     def check_cam_undercut(self) -> Iterator[Check]:
-        """GL402."""
-        return self.groove.check_undercut(self.larger)
+        """GL402 of both walls: the roller against the minimum radius of the path, and what it cuts elsewhere."""
+        groove, roller = self.groove, self.groove.roller_radius
+        for side, (name, found) in enumerate((("inner", groove.sharpest), ("outer", groove.hollow))):
+            share, place = roller / found.value, found.place
+            status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"
+            what, shown = f"roller radius, {name} wall", against_curvature(roller, found.value, status)
+            if status == "pass" and not groove.star_shaped[side]:
+                cut = undercut(lambda theta, k=side: (groove.path(theta).place, groove.walls(theta)[k]), roller)  # type: ignore[misc]
+                if cut.depth > _CUT * roller:
+                    status, what, place = "fail", f"cut of the roller into the {name} wall", cut.cam_angle
+                    shown = Compared(cut.depth, 0.0, "mm", "<=")
+            at = f"input angle {short(math.degrees(place))} deg"
+            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=self.larger)
 
 
 class CamGear(Grooved):
@@ -378,17 +334,12 @@ class CamGear(Grooved):
     carrier_length: float = placed("gear_data.pair.center_distance")
     contact_ratio: float = placed("gear_data.pair.contact_ratio")
 
-    @property
-    def share(self) -> float:
-        """z_s/z_p."""
-        return self.spec.gears.sun / self.spec.gears.planet
-
     def lever(self, theta: Reals, order: int, side: int = 1) -> list[Reals]:
         """Angle X of the lever from the direction sun to planet, and its derivatives by the input angle [rad]."""
         angle, *rates = self.output_motion.evaluate(theta, order, side=side)
-        found = [self.spec.lever.angle * _DEGREE + self.share * (theta - angle)]
-        found += [self.share * ((1.0 if k == 0 else 0.0) - each) for k, each in enumerate(rates)]
-        return found
+        share = self.spec.gears.sun / self.spec.gears.planet
+        found = [self.spec.lever.angle * _DEGREE + share * (theta - angle)]
+        return found + [share * ((1.0 if k == 0 else 0.0) - each) for k, each in enumerate(rates)]
 
     @cached_property
     def _swing(self) -> tuple[Extreme, Extreme]:
@@ -423,9 +374,10 @@ class CamGear(Grooved):
             np.asarray(1j * turn * arm),
         )
 
-    def motion_columns(self, theta: Reals) -> dict[str, tuple[Any, str]]:
-        """Angle of the lever."""
-        return {"lever_angle": (np.degrees(self.lever(theta, 0)[0]), "deg")}
+    def table_motion(self, samples: int | None = None, **beside: tuple[Any, str]) -> Table:
+        """The output over a revolution of the input."""
+        lever = np.degrees(self.lever(np.radians(turn_degrees(samples)), 0)[0])
+        return super().table_motion(samples, lever_angle=(lever, "deg"), **beside)
 
     def check(self, name: str) -> list[Check]:
         """Gear checks are those of sun and planet."""
@@ -499,7 +451,6 @@ class CamLinkage(Grooved):
 
     @cached_property
     def _leans(self) -> tuple[Extreme, Extreme]:
-        """Its maximum and minimum."""
         return self.ends(self._lean)
 
     @cached_property
@@ -536,9 +487,8 @@ class CamLinkage(Grooved):
 def _groove(design: Grooved, phi: Reals, on: str) -> Contact:
     """The roller in the groove of the frame: a force of either sense along the normal."""
     path = design.path(phi)
-    normal = 1j * path.first / np.abs(path.first)
-    bend = (np.conj(path.first) * path.second).imag / np.abs(path.first) ** 3
-    return Contact("groove", FRAME, on, path.place, np.asarray(normal), None, np.asarray(-bend))
+    normal = np.asarray(1j * path.first / np.abs(path.first))
+    return Contact("groove", FRAME, on, path.place, normal, None, -_bend(path))
 
 
 def _inner(joints: tuple[float, ...]) -> tuple[float, ...]:

@@ -111,9 +111,7 @@ class LinkedCams(RealSpeed, Design):
     @property
     def joints(self) -> tuple[float, ...]:
         """Input angles at which the fourth derivative may jump: the points of a spline [rad]."""
-        return (
-            () if self.spec.path.points is None else tuple(math.radians(row[0]) for row in self.spec.path.points[:-1])
-        )
+        return tuple(math.radians(row[0]) for row in (self.spec.path.points or ())[:-1])
 
     @cached_property
     def lowest(self) -> list[float]:
@@ -124,15 +122,12 @@ class LinkedCams(RealSpeed, Design):
     def _reach(self) -> list[tuple[float, float]]:
         from gearlink.core.numerics.extremes import extremes_over
 
-        found = []
-        for axis in (0, 1):
+        def reach(axis: int) -> tuple[float, float]:
+            wanted = [(lambda theta: self.coordinate(axis, theta, 0)[0], greatest) for greatest in (False, True)]
+            low, high = extremes_over(wanted, joints=self.joints, samples=1024)
+            return low.value, high.value
 
-            def place(theta: Reals, axis: int = axis) -> Reals:
-                return self.coordinate(axis, theta, 0)[0]
-
-            low, high = extremes_over([(place, False), (place, True)], joints=self.joints, samples=1024)
-            found.append((low.value, high.value))
-        return found
+        return [reach(0), reach(1)]
 
     @property
     def stroke(self) -> list[float]:
@@ -167,9 +162,8 @@ class LinkedCams(RealSpeed, Design):
 
             def path(theta: Reals, order: int) -> RollerPath:
                 place, *rates = self.coordinate(axis, theta, max(order, 1))
-                second = rates[1] if order > 1 else 0.0
                 height = given.base_radius + (place - self.lowest[axis])
-                return translating(height, rates[0], second, direction=(1.0, 1j)[axis])
+                return translating(height, *rates[:2], direction=(1.0, 1j)[axis])
 
             key = f"cams.{AXES[axis]}"
             return DiscCam(f"{AXES[axis]} cam", path, 1, given.roller_radius, self.joints, key)

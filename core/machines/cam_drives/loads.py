@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field
 
-from gearlink.core.base.design import geometry
+from gearlink.core.base.design import geometry, placed
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec import Spec
 from gearlink.core.machines.cam_drives.grooved import CamGear, CamLinkage
@@ -68,12 +68,7 @@ class GroovedLoads(LoadsDesign):
     """What both drives with a groove have: an output that stands where the file says so."""
 
     stands = True
-
-    @property
-    def quiet_zones(self) -> list[tuple[float, float]]:
-        """The dwells of the file."""
-        found: list[tuple[float, float]] = self.design.output_motion.dwells
-        return found
+    quiet_zones: list[tuple[float, float]] = placed("design.output_motion.dwells")
 
 
 class CamGearLoads(GroovedLoads):

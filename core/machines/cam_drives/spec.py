@@ -24,10 +24,10 @@ from gearlink.core.base.spec import (
     refused,
     unit,
 )
+from gearlink.core.parts.cams.motion_spec import SteepAngle
 from gearlink.core.parts.cams.output_motion import OutputLaw
 from gearlink.core.parts.gears.keys.pair import PairKeys
 
-SteepAngle = Annotated[float, unit("deg", gt=0, lt=90)]
 Number = Annotated[float, unit("1")]
 Harmonic = Annotated[
     list[Number], Field(min_length=3, max_length=3), Entries("[n, cos, sin]", "[1, 20, 0]", ("1", "mm", "mm"))
@@ -114,10 +114,8 @@ class CamLinkageSpec(DrivenSpec):
 class Harmonics(Spec):
     """Both coordinates of the path as sums of harmonics of the input angle."""
 
-    x: Annotated[list[Harmonic], Field(min_length=1, max_length=60)] = Field(
-        description="n, and amounts of cos and sin"
-    )
-    y: Annotated[list[Harmonic], Field(min_length=1, max_length=60)] = Field(description="the same of y")
+    x: Waves = Field(description="n, and amounts of cos and sin")
+    y: Waves = Field(description="the same of y")
 
     @model_validator(mode="after")
     def _whole(self) -> Self:

@@ -37,8 +37,9 @@ def motion(design: DiscCamDesign) -> Motion:
         links = {"cam": Link(axis, steady(phi, sense, order=order)), "follower": follower}
 
         def joints() -> list[Connection]:
-            fixed_ones = [Pin("O", FRAME, "cam", axis.value), _guided(cams, follower)]
-            return [*fixed_ones, *_contacts(cams, phi, made)]
+            at = follower.origin.value
+            held = Guide("guide", FRAME, "follower", at, cams.direction) if travel else Pin("A", FRAME, "follower", at)
+            return [Pin("O", FRAME, "cam", axis.value), held, *_contacts(cams, phi, made)]
 
         travel = {} if design.spec.oscillates else {"follower": cams.direction}
         made = Mechanism(links, Later(joints), "cam", sense, travel=travel)
@@ -56,10 +57,8 @@ def lift(design: DiscCamDesign) -> Course:
     """The lift of the follower [mm or rad]."""
     cams = design.cams
     if design.spec.oscillates:
-        start = float(cams.arm_angle(cams.place, np.zeros(1), 0)[0][0]) + cams.follower.side * float(
-            cams.motion.evaluate(np.zeros(1), 0)[0][0]
-        )
-        sense = -float(cams.follower.side)
+        zero, sense = np.zeros(1), -float(cams.follower.side)
+        start = float(cams.arm_angle(cams.place, zero, 0)[0][0]) - sense * float(cams.motion.evaluate(zero, 0)[0][0])
         return turned("follower", sense=sense).less(sense * start)
     start = cams.place.radius if design.spec.is_flat else cams.start_height
     return coordinate("follower", along=cams.direction).less(start)
@@ -85,15 +84,6 @@ def _rocker(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:
     turn = Turn(*cams.arm_angle(cams.place, phi, order, side))
     points = {"A": 0.0} if cams.spec.is_flat else {"A": 0.0, "B": float(cams.follower.arm)}
     return Link(fixed(cams.pivot, phi, order=order), turn, points)
-
-
-def _guided(cams: FollowerCams, follower: Link) -> Connection:
-    at = follower.origin.value
-    return (
-        Pin("A", FRAME, "follower", at)
-        if cams.spec.oscillates
-        else Guide("guide", FRAME, "follower", at, cams.direction)
-    )
 
 
 def _contacts(cams: FollowerCams, phi: Reals, made: Mechanism) -> list[Contact]:

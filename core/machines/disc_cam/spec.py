@@ -316,10 +316,8 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
             message = f"{other} applies only to a roller\ngive cam.base_radius instead"
             if self.rolls:
                 whole = given + getattr(self.follower, "roller_radius", 0.0)
-                message = (
-                    f"{other} applies only to a flat face or an edge\ngive cam.prime_radius: {whole:g} (with the "
-                    "roller's radius)"
-                )
+                message = f"{other} applies only to a flat face or an edge\ngive cam.prime_radius: {whole:g} (with the "
+                message += "roller's radius)"
             raise refused(message, f"cam.{other}")
         if (getattr(cam, wanted) is None) == (cam.size is None):
             both = cam.size is not None
@@ -338,13 +336,11 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if isinstance(follower, OnSlide):
             if follower.offset == "best":
                 if size is None:
-                    raise refused(
-                        "offset: best applies only with cam.size\ngive cam.size, or a number in mm", "follower.offset"
-                    )
+                    message = "offset: best applies only with cam.size\ngive cam.size, or a number in mm"
+                    raise refused(message, "follower.offset")
             elif (most := self.radius) is not None and abs(follower.offset) >= most:
-                message = (
-                    f"magnitude of the offset: {abs(follower.offset):g} mm (limit < {most:g} mm, {self.radius_key})"
-                )
+                limit = f"limit < {most:g} mm, {self.radius_key}"
+                message = f"magnitude of the offset: {abs(follower.offset):g} mm ({limit})"
                 message += f"\nset follower.offset within -{most:g} and {most:g} mm"
                 raise refused(message, "follower.offset")
         if isinstance(follower, OnRocker) and follower.center_distance is None and size is None:
@@ -357,21 +353,18 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if not self.rolls and self.closure != "spring":
             raise refused(f"{self.closure} applies only to a roller\nset closure to spring", "closure")
         if (roller is not None) != (self.closure == "conjugate"):
-            message = (
-                "give return_roller: {radius: ...}"
-                if roller is None
-                else "return_roller needs closure: conjugate\nset closure to conjugate, or omit return_roller"
-            )
-            raise refused(message, "closure" if roller is None else "return_roller")
+            if roller is None:
+                raise refused("give return_roller: {radius: ...}", "closure")
+            message = "return_roller needs closure: conjugate\nset closure to conjugate, or omit return_roller"
+            raise refused(message, "return_roller")
         if roller is not None:
             own, foreign = (("arm", "angle"), ("distance",)) if self.oscillates else ((), ("arm", "angle"))
             for key in foreign:
                 if getattr(roller, key) is not None:
                     raise refused(f"this follower's return roller has no {key}\nomit it", f"return_roller.{key}")
             if any(getattr(roller, key) is None for key in own):
-                raise refused(
-                    "the return roller of an oscillating follower needs arm and angle\ngive both", "return_roller"
-                )
+                message = "the return roller of an oscillating follower needs arm and angle\ngive both"
+                raise refused(message, "return_roller")
         return self
 
     @model_validator(mode="after")
@@ -387,9 +380,8 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         }
         for key, given in pressed.items():
             if given is not None:
-                message = (
-                    f"a knife edge has no contact pressure, since its radius is 0\nomit loads.{key}, or use a roller"
-                )
+                message = "a knife edge has no contact pressure, since its radius is 0"
+                message += f"\nomit loads.{key}, or use a roller"
                 raise refused(message, f"loads.{key}")
         return self
 

@@ -78,7 +78,11 @@ def undercut_checks(
             status, cut = "fail", cam.undercut
             what = f"cut of the roller of the {cam.name} into its own profile"
             shown, at = Shown(cut.depth, 0.0, "mm", "<="), f"cam angle {short(math.degrees(cut.cam_angle))} deg"
-            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=_of_step(cam) or plainly)
+            # at a convex corner of the pitch curve a roller of any radius cuts, however large the cam
+            corner = max(cam.corners, default=None)
+            of_step = corner is not None and corner.value > 0.0
+            fix = WITHOUT_STEP.format(short(math.degrees(corner.place))) if of_step else plainly  # type: ignore[union-attr]
+            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
             continue
         if status != "pass":
             most = ROLLER_SHARE * least.value
@@ -89,17 +93,6 @@ def undercut_checks(
                 fix = larger() if larger else plainly
         shown = against_curvature(roller, least.value, status)
         yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
-
-
-def _of_step(cam: DiscCam) -> str:
-    """The words for a cut at a step of the velocity, where the pitch curve has a corner; empty where it has none.
-
-    A roller of any radius cuts into the profile at a convex corner, however large the cam.
-    """
-    sharpest = max(cam.corners, default=None)
-    if sharpest is None or sharpest.value <= 0.0:
-        return ""
-    return WITHOUT_STEP.format(short(math.degrees(sharpest.place)))
 
 
 def flat_undercut_check(cam: FlatCam, limit: float, larger: str) -> Check:
@@ -116,10 +109,11 @@ def flat_undercut_check(cam: FlatCam, limit: float, larger: str) -> Check:
         return CAM_UNDERCUT.check("fail", what, None, limit, "mm", side=">=", shown=NO_NUMBER, at=at, fix=fix)
     room = 1e-9 * max(limit, abs(least.value))
     status: Status = "fail" if least.value <= 0.0 else "warn" if least.value < limit - room else "pass"
-    if least.value < 0.0:
-        what, shown = "minimum curvature radius of the profile: it is undercut", NO_NUMBER
-    else:
-        what, shown = "minimum curvature radius of the profile", None
+    cut = least.value < 0.0
+    what, shown = (
+        "minimum curvature radius of the profile" + (": it is undercut" if cut else ""),
+        NO_NUMBER if cut else None,
+    )
     at = f"cam angle {short(math.degrees(least.place))} deg"
     fix = larger.format(safely_above(max(limit, 0.0) - least.value))
     return CAM_UNDERCUT.check(status, what, least.value, limit, "mm", side=">=", shown=shown, at=at, fix=fix)
@@ -164,17 +158,9 @@ def hub_checks(
         fix = farther(HUB * shaft - cam.min_radius) if status != "pass" else ""
         if status == "warn" and cam.min_radius >= HUB * THINNEST * shaft:
             fix = f"use a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm"
-        yield rule.check(
-            status,
-            f"distance of the {cam.name} from its shaft",
-            room,
-            0.0,
-            "mm",
-            overlap=f"overlap of the {cam.name} and its shaft",
-            recommended=(HUB - 1.0) * shaft,
-            aside=f"shaft radius {short(shaft)} mm",
-            fix=fix,
-        )
+        what, overlap = f"distance of the {cam.name} from its shaft", f"overlap of the {cam.name} and its shaft"
+        most, aside = (HUB - 1.0) * shaft, f"shaft radius {short(shaft)} mm"
+        yield rule.check(status, what, room, 0.0, "mm", overlap=overlap, recommended=most, aside=aside, fix=fix)
 
 
 def over_axis_check(
@@ -200,12 +186,9 @@ def over_axis_check(
     Notes
         Never a failure, since what turns there may be overhung beside the cam.
     """
-    if room >= shaft:
-        return
-    what, overlap = f"{words} to {axis}", f"overlap of the {words} and {axis}"
-    yield rule.check(
-        "warn", what, room, shaft, "mm", overlap=overlap, aside=takes if room > 0.0 else "", at=at, fix=remedy
-    )
+    if room < shaft:
+        what, overlap, aside = f"{words} to {axis}", f"overlap of the {words} and {axis}", takes if room > 0.0 else ""
+        yield rule.check("warn", what, room, shaft, "mm", overlap=overlap, aside=aside, at=at, fix=remedy)
 
 
 def step_check(

@@ -365,11 +365,8 @@ def _facing(beside: Piece, end: str, key: str, unit: float) -> tuple[float, floa
     """Velocity and acceleration of a neighbour at the end that faces a law that joins it, by the cam angle."""
     given = None if beside.waits is None else getattr(beside.waits.law, end)
     if beside.coefficients or given == "join":
-        raise NoSolution(
-            f"{key}: join uses the end values of a neighbouring segment that has its own",
-            key=key,
-            fix="give the neighbour a law, or end values",
-        )
+        message = f"{key}: join uses the end values of a neighbouring segment that has its own"
+        raise NoSolution(message, key=key, fix="give the neighbour a law, or end values")
     if given is None:
         return beside.ends[("start", "end").index(end)]
     if not isinstance(given, list):
@@ -395,14 +392,12 @@ def _backwards(shape: Shape) -> Shape:
 def _mapped(definition: Mapping[str, Any]) -> tuple[Shape, tuple[float, ...], str]:
     """A blend of two laws, or a law with its inflection elsewhere."""
     kind = definition["type"]
-    wanted = {"blend": {"laws", "share"}, "shifted": {"law", "inflection"}}.get(kind)
+    wanted = {"blend": ("laws", "share"), "shifted": ("law", "inflection")}.get(kind)
     if wanted is None:
         raise NoSolution(f"unknown type of law {kind!r}: blend or shifted")
     if {*definition} != {"type", *wanted}:
         raise NoSolution(f"a law of type {kind} has the keys type, {', '.join(sorted(wanted))}")
-    if kind == "blend":
-        return _blend(definition["laws"], definition["share"])
-    return _shifted(definition["law"], definition["inflection"])
+    return (_blend if kind == "blend" else _shifted)(*(definition[key] for key in wanted))
 
 
 def _number(value: Any, low: float, high: float, name: str) -> float:
@@ -440,9 +435,8 @@ def _shifted(definition: Any, inflection: Any) -> tuple[Shape, tuple[float, ...]
     m = _number(inflection, 0.05, 0.95, "inflection")
     bend = float(one.derivatives(np.array([0.5]), 2, 2)[0][0])
     if abs(bend) > 1e-9 * one.peak_acceleration:
-        raise NoSolution(
-            f"the acceleration of {one.name} is not zero in the middle: its inflection point cannot be shifted"
-        )
+        message = f"the acceleration of {one.name} is not zero in the middle: its inflection point cannot be shifted"
+        raise NoSolution(message)
 
     def half(x: Reals, order: int, share: float) -> list[Reals]:
         found = one.derivatives(np.clip(x / (2.0 * share), 0.0, 0.5), 0, order)

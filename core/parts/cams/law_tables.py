@@ -33,22 +33,16 @@ class MotionLaws(Design):
     @property
     def groups(self) -> dict[str, list[Law]]:
         """The laws by kind, rest-to-rest first; kinds without a law left out."""
-        laws = self.spec.laws or all_laws()
+        laws = self.spec.laws or tuple(law(each) for each in (*REST_TO_REST, *REST_TO_SPEED, *FREE_LAWS))
         kinds = {"rest_to_rest": "rest-to-rest", "rest_to_speed": "rest-to-speed"}
-        found = {name: [law for law in laws if law.kind == kind] for name, kind in kinds.items()}
+        found = {name: [each for each in laws if each.kind == kind] for name, kind in kinds.items()}
         return {name: group for name, group in found.items() if group}
 
     def report(self, command: str, *, samples: int | None = None, **_asked: Any) -> Report:
         """The tables of constants, and a table for each law that was asked for."""
         tables = [constants(name, group) for name, group in self.groups.items()]
-        tables += [course(law, samples or 100) for law in self.spec.laws]
+        tables += [course(each, samples or 100) for each in self.spec.laws]
         return Report(self.kind, self.spec.name, command, tables=tuple(tables))
-
-
-def all_laws() -> tuple[Law, ...]:
-    """Every named law, and the laws with a number at their symmetric value."""
-    definitions: list[str | Mapping[str, object]] = [*REST_TO_REST, *REST_TO_SPEED, *FREE_LAWS]
-    return tuple(law(definition) for definition in definitions)
 
 
 _BESIDE = 1e-9
@@ -72,22 +66,12 @@ def constants(name: str, laws: Sequence[Law]) -> Table:
     Source
         own derivation; constants as VDI 2143
     """
-    columns: dict[str, list[Any]] = {
-        "law": [each.name for each in laws],
-        "Cv": [each.peak_velocity for each in laws],
-        "Ca": [each.peak_acceleration for each in laws],
-        "Cj": [each.interior_jerk for each in laws],
-        "Cm": [each.peak_power for each in laws],
-        "kappa": [each.kappa for each in laws],
-        "jumps": [_jumps(each) for each in laws],
-    }
+    fields = {"law": "name", "Cv": "peak_velocity", "Ca": "peak_acceleration", "Cj": "interior_jerk"}
+    fields |= {"Cm": "peak_power", "kappa": "kappa"}
+    columns = {column: [getattr(each, field) for each in laws] for column, field in fields.items()}
+    inside = ("inside" if math.isinf(each.peak_jerk) else "none" for each in laws)
+    columns["jumps"] = ["at the ends" if each.end_jumps else other for each, other in zip(laws, inside, strict=True)]
     return Table.of(name, {column: (data, "1") for column, data in columns.items()})
-
-
-def _jumps(law: Law) -> str:
-    if law.end_jumps:
-        return "at the ends"
-    return "inside" if math.isinf(law.peak_jerk) else "none"
 
 
 def acceleration_jumps(law: Law) -> list[tuple[float, float]]:

@@ -538,9 +538,8 @@ def _constant_share(name: str) -> float:
     except ValueError:
         share = math.nan
     if not 0.0 <= share < 1.0:
-        raise NoSolution(
-            f"motion law {named(name)}: the percentage of constant velocity must lie in 0 to 99, as in mcv-33"
-        )
+        message = f"motion law {named(name)}: the percentage of constant velocity must lie in 0 to 99, as in mcv-33"
+        raise NoSolution(message)
     return share
 
 
@@ -562,7 +561,6 @@ def _numbers(key: str, value: object, count: int) -> tuple[float, ...]:
         isinstance(n, int | float) and not isinstance(n, bool) and math.isfinite(n) for n in numbers
     ):
         what = "one number" if count == 1 else f"a list of {count} numbers"
-        raise NoSolution(
-            f"motion law {key}: {value!r} is not {what}, as in {{scca: [0.25, 0, 0.75, 0]}}, {{quintic: 0.5}}"
-        )
+        message = f"motion law {key}: {value!r} is not {what}, as in {{scca: [0.25, 0, 0.75, 0]}}, {{quintic: 0.5}}"
+        raise NoSolution(message)
     return tuple(float(n) for n in numbers)

@@ -18,7 +18,6 @@ from gearlink.core.parts.cams.spec import SegmentLaw
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.parts.cams.follower_motion import FollowerMotion
 
 TURN = 2.0 * math.pi
 _FIT = 1e-9
@@ -96,23 +95,19 @@ class OutputMotion:
     """
 
     def __init__(self, given: list[OutputSegment] | OutputTable) -> None:
-        self.even = 0.0
-        self._base = self._made(given)
-        start, end = self._base.pieces[0].low, self._base.pieces[-1].high
-        self.gained = end - start + TURN * self.even
-
-    def _made(self, given: list[OutputSegment] | OutputTable) -> FollowerMotion:
         from gearlink.core.parts.cams.follower_motion import motion_of, spline
 
+        self.even = 0.0
         if isinstance(given, OutputTable):
             rows = [(math.radians(angle), math.radians(output)) for angle, output in given.rows]
             self.even = (rows[-1][1] - rows[0][1]) / TURN
-            return spline([angle for angle, _ in rows], [output - self.even * angle for angle, output in rows])
-        segments = [
-            Segment.model_construct(to=each.to, lift=each.output, law=each.law, mirrored=False) for each in given
-        ]
-        with at_key("motion"):
-            return motion_of(segments, unit=math.radians(1.0), whole=TURN)
+            self._base = spline([angle for angle, _ in rows], [output - self.even * angle for angle, output in rows])
+        else:
+            made = Segment.model_construct
+            segments = [made(to=each.to, lift=each.output, law=each.law, mirrored=False) for each in given]
+            with at_key("motion"):
+                self._base = motion_of(segments, unit=math.radians(1.0), whole=TURN)
+        self.gained = self._base.pieces[-1].high - self._base.pieces[0].low + TURN * self.even
 
     @property
     def joints(self) -> tuple[float, ...]:

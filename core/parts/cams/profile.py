@@ -103,9 +103,8 @@ def translating(
         array([10.+90.j])
     """
     if not abs(abs(direction) - 1.0) <= 1e-9:
-        raise NoSolution(
-            f"direction of travel {direction} has length {abs(direction):.4g} (required 1)", fix="give a unit vector"
-        )
+        message = f"direction of travel {direction} has length {abs(direction):.4g} (required 1)"
+        raise NoSolution(message, fix="give a unit vector")
     u = complex(direction) / abs(direction)
     y, y1, y2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (displacement, first, second)))
     return RollerPath(u * (y - 1j * offset), u * y1, u * y2, np.broadcast_to(np.complex128(u), y.shape))
@@ -254,10 +253,8 @@ def _keeps_sign(across: Reals) -> Mask:
 def _check_lever(cam_angle: ArrayLike, across: Reals) -> None:
     if across.size and not _keeps_sign(across).all():
         place = _angle_at(cam_angle, across.shape, int(np.argmin(np.abs(across))))
-        raise NoSolution(
-            f"pressure angle: 90 deg at cam angle {short(place)} deg, where the roller passes the relative pole",
-            fix=f"{LARGER} or lengthen the rise",
-        )
+        message = f"pressure angle: 90 deg at cam angle {short(place)} deg, where the roller passes the relative pole"
+        raise NoSolution(message, fix=f"{LARGER} or lengthen the rise")
 
 
 def curvature(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Reals:
@@ -302,12 +299,13 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
     """
     phi = np.asarray(cam_angle, dtype=float)
     shape = np.broadcast_shapes(phi.shape, path.position.shape)
-    phi, flat = np.broadcast_to(phi, shape).ravel(), _flattened(path, shape)
+    whole = (phi, path.position, path.first, path.second, path.direction)
+    phi, *parts = (np.broadcast_to(part, shape).ravel() for part in whole)
     pitch, contact = (np.empty(phi.size, dtype=np.complex128) for _ in range(2))
     bend, across, slope = (np.empty(phi.size) for _ in range(3))
     for start in range(0, phi.size, BLOCK):
         block = slice(start, start + BLOCK)
-        part = RollerPath(flat.position[block], flat.first[block], flat.second[block], flat.direction[block])
+        part = RollerPath(*(each[block] for each in parts))
         d1 = _pitch_rate(part, sense)
         speed = _speed(phi[block], part, d1)
         turn = _back_turn(phi[block], sense)
@@ -318,17 +316,8 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
         across[block], slope[block] = lever.real, lever.imag
     _check_lever(phi, across)
     np.divide(slope, across, out=slope)
-    return CamProfile(
-        pitch=pitch.reshape(shape),
-        profile=contact.reshape(shape),
-        pressure_angle=np.arctan(slope, out=slope).reshape(shape),
-        curvature=bend.reshape(shape),
-    )
-
-
-def _flattened(path: RollerPath, shape: tuple[int, ...]) -> RollerPath:
-    parts = (path.position, path.first, path.second, path.direction)
-    return RollerPath(*(np.broadcast_to(part, shape).reshape(-1) for part in parts))
+    angle = np.arctan(slope, out=slope).reshape(shape)
+    return CamProfile(pitch.reshape(shape), contact.reshape(shape), angle, bend.reshape(shape))
 
 
 def _back_turn(cam_angle: ArrayLike, sense: int) -> Points:
@@ -359,10 +348,8 @@ def _speed(cam_angle: ArrayLike, path: RollerPath, d1: Points) -> Reals:
     still = speed <= 1e-13 * np.maximum(np.abs(path.position.real), np.abs(path.position.imag))
     if still.any():
         place = _angle_at(cam_angle, speed.shape, int(np.argmax(still)))
-        raise NoSolution(
-            f"the pitch curve has a cusp at cam angle {short(place)} deg, where the follower moves with the cam",
-            fix=f"{LARGER} or change the law",
-        )
+        message = f"the pitch curve has a cusp at cam angle {short(place)} deg, where the follower moves with the cam"
+        raise NoSolution(message, fix=f"{LARGER} or change the law")
     return speed
 
 

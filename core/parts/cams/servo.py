@@ -34,20 +34,14 @@ _BETWEEN = 17
 _NAMES = ("position", "velocity", "acceleration", "jerk")
 
 
-def servo_rows(motion: FollowerMotion, rows: int) -> tuple[Reals, list[Reals]]:
-    """Angles [deg] and the lift with three derivatives at equal steps, both ends; joints as the segment after them."""
-    degrees = 360.0 * np.arange(rows) / (rows - 1)
-    return degrees, motion.evaluate(np.radians(degrees), 3)
-
-
 def servo_table(motion: FollowerMotion, rows: int, *, rocks: bool) -> Table:
     """Positions and their derivatives per degree of the master at equal steps, lifts in mm, of a rocker in deg.
 
     Notes
         Without the jerk where the motion has two derivatives only, as that of measured points.
     """
-    degrees, values = servo_rows(motion, rows)
-    unit = "deg" if rocks else "mm"
+    degrees, unit = 360.0 * np.arange(rows) / (rows - 1), "deg" if rocks else "mm"
+    values = motion.evaluate(np.radians(degrees), 3)  # joints as the segment after them
     columns: dict[str, tuple[Reals, str]] = {"master_position": (degrees, "deg")}
     for order, (name, value) in enumerate(zip(_NAMES, values, strict=False)):
         shown = (np.degrees(value) if rocks else value) * math.radians(1.0) ** order

@@ -127,9 +127,8 @@ class WithShapedLaws:
             speed, place = law.shaping.least_speed
             what, fix = f"{path}: minimum velocity of the table law", "smooth the points, or omit some"
             back = speed < -_ROUNDING * law.peak_velocity
-            yield LAW_RIPPLE.check(
-                _status(back), what, speed if back else max(speed, 0.0), 0.0, at=f"x = {short(place)}", fix=fix
-            )
+            shown, at = speed if back else max(speed, 0.0), f"x = {short(place)}"
+            yield LAW_RIPPLE.check(_status(back), what, shown, 0.0, at=at, fix=fix)
 
     def table_law_coefficients(self, _samples: int | None = None) -> Table:
         """Coefficients of the second derivative of each law that is a polynomial, by Bernstein polynomials."""
