@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.studies.tolerance.sources import GearOfSource
 
@@ -21,6 +22,12 @@ class Turned(NamedTuple):
 
     link: str
     teeth: GearOfSource
+
+    @classmethod
+    def of(cls, link: str, section: Any, teeth: int) -> Turned:
+        """A gear of a section with module and pressure_angle [deg]; a ring has negative teeth."""
+        module, alpha = section.module, math.radians(section.pressure_angle)
+        return cls(link, GearOfSource(module, module * abs(teeth), alpha))
 
 
 @dataclass(frozen=True)

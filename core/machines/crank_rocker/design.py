@@ -39,16 +39,8 @@ TURN = 2.0 * math.pi
 LENGTHS = ("crank_length", "coupler_length", "rocker_length", "frame_length")
 ROCKER_SPEEDS = ("rocker_speed_max", "rocker_speed_min", "rocker_acceleration_max", "rocker_acceleration_min")
 MOTION = (
-    "rocker_swing",
-    "quick_return_ratio",
-    "outer_dead_center",
-    "inner_dead_center",
-    "min_transmission_angle",
-    *names("speed_ratio"),
-    *names("acceleration_ratio"),
-    "input_speed",
-    "turn_time",
-    *ROCKER_SPEEDS,
+    *("rocker_swing", "quick_return_ratio", "outer_dead_center", "inner_dead_center", "min_transmission_angle"),
+    *(*names("speed_ratio"), *names("acceleration_ratio"), "input_speed", "turn_time", *ROCKER_SPEEDS),
 )
 QUANTITIES = (*LENGTHS, *MOTION)
 _LINKS = either("links.crank", "links.coupler", "links.rocker", "links.frame")
@@ -81,17 +73,9 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
     spec: CrankRockerSpec
     keys = {
         "analyze": (
-            "rocker_swing",
-            "quick_return_ratio",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "rocker_speed_max",
-            "rocker_speed_min",
-            "outer_dead_center",
-            "inner_dead_center",
-            "rocker_acceleration_max",
-            "rocker_acceleration_min",
-            "speed_ratio_max",
-            "speed_ratio_min",
+            *("rocker_swing", "quick_return_ratio", ("min_transmission_angle", ">limits.transmission_angle")),
+            *("rocker_speed_max", "rocker_speed_min", "outer_dead_center", "inner_dead_center"),
+            *("rocker_acceleration_max", "rocker_acceleration_min", "speed_ratio_max", "speed_ratio_min"),
             "acceleration_ratio_max",
         )
     }

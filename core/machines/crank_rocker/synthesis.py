@@ -429,20 +429,10 @@ class SwingSynthesis(_Synthesis):
     keys = dict.fromkeys(
         ("synth swing", "analyze"),
         (
-            ("rocker_swing", "swing.angle"),
-            ("quick_return_ratio", "swing.quick_return_ratio"),
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "crank_length",
-            "coupler_length",
-            "rocker_length",
-            "frame_length",
-            "outer_dead_center",
-            "inner_dead_center",
-            "rocker_acceleration_max",
-            "rocker_acceleration_min",
-            "speed_ratio_max",
-            "speed_ratio_min",
-            "acceleration_ratio_max",
+            *(("rocker_swing", "swing.angle"), ("quick_return_ratio", "swing.quick_return_ratio")),
+            *(("min_transmission_angle", ">limits.transmission_angle"), "crank_length", "coupler_length"),
+            *("rocker_length", "frame_length", "outer_dead_center", "inner_dead_center", "rocker_acceleration_max"),
+            *("rocker_acceleration_min", "speed_ratio_max", "speed_ratio_min", "acceleration_ratio_max"),
         ),
     )
     outlines = {"synth swing": CrankRocker.outlines["analyze"], "analyze": CrankRocker.outlines["analyze"]}
@@ -539,20 +529,10 @@ class FunctionSynthesis(_Synthesis):
     keys = dict.fromkeys(
         ("synth function", "analyze"),
         (
-            "crank_length",
-            "coupler_length",
-            "rocker_length",
-            "frame_length",
-            "crank_offset",
-            "rocker_offset",
-            "structural_error",
-            "function_start",
-            "output_zero",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "rocker_swing",
-            "assembly",
-            "rocker_acceleration_max",
-            "quick_return_ratio",
+            *("crank_length", "coupler_length", "rocker_length", "frame_length", "crank_offset", "rocker_offset"),
+            *("structural_error", "function_start", "output_zero"),
+            *(("min_transmission_angle", ">limits.transmission_angle"), "rocker_swing", "assembly"),
+            *("rocker_acceleration_max", "quick_return_ratio"),
         ),
     )
     outlines = {"synth function": _OF_PAIRS, "analyze": _OF_PAIRS}

@@ -27,7 +27,6 @@ from gearlink.core.base.report import Check, Remedy, Shown, Status, Table, safel
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.mechanism.closures import slider
 from gearlink.core.mechanism.courses import Shown as Column
 from gearlink.core.mechanism.courses import coordinate, motion_table, of_output, turned
@@ -44,7 +43,16 @@ from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Me
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.standstills import Turning
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
+from gearlink.core.studies.clearance import (
+    SHAFT_WAYS,
+    Gear,
+    Layout,
+    WithShafts,
+    constant,
+    least_shaft,
+    ring_gear,
+    shafts_at,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
@@ -132,9 +140,8 @@ class HypocycloidSlider:
         return x_1 - y * y_1 / math.sqrt(self.rod**2 - y * y)
 
     def _rates(self, t: float) -> tuple[float, float]:
-        k = self.cusps - 1
+        k, far = self.cusps - 1, self.ratio
         scale = self.planet_radius * k
-        far = self.ratio
         return scale * (far * math.sin(k * t) - math.sin(t)), scale * (far * math.cos(k * t) + math.cos(t))
 
     def rod_angle(self, t: float) -> float:
@@ -327,11 +334,11 @@ def minimax(planet_radius: float, cusps: int, angle: float) -> float:
         7.191266
     """
 
-    def greatest(rod: float) -> float:
+    def quality(rod: float) -> float:
         low, high = HypocycloidSlider(planet_radius, cusps, rod).deviation_range(angle)
-        return max(high, -low)
+        return min(-high, low)
 
-    return _best(planet_radius, cusps, lambda rod: -greatest(rod), angle)
+    return _best(planet_radius, cusps, quality, angle)
 
 
 def least_ripple(planet_radius: float, cusps: int, angle: float) -> float:
@@ -351,11 +358,7 @@ def least_ripple(planet_radius: float, cusps: int, angle: float) -> float:
         >>> round(least_ripple(1.0, 3, math.radians(120.0)), 6)
         7.0
     """
-
-    def quality(rod: float) -> float:
-        return -HypocycloidSlider(planet_radius, cusps, rod).ripple(angle)
-
-    return _best(planet_radius, cusps, quality, angle)
+    return _best(planet_radius, cusps, lambda rod: -HypocycloidSlider(planet_radius, cusps, rod).ripple(angle), angle)
 
 
 def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
@@ -376,11 +379,7 @@ def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
         >>> HypocycloidSlider(1.0, 3, rod).dwell_angle(0.0111) >= HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)
         True
     """
-
-    def quality(rod: float) -> float:
-        return HypocycloidSlider(planet_radius, cusps, rod).dwell_angle(tolerance)
-
-    return _best(planet_radius, cusps, quality)
+    return _best(planet_radius, cusps, lambda rod: HypocycloidSlider(planet_radius, cusps, rod).dwell_angle(tolerance))
 
 
 def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: float | None = None) -> float:
@@ -514,15 +513,10 @@ class SlottedArm:
 
 
 _ARM = (
-    "steps",
-    "speed_ratio_max",
-    "speed_ratio_min",
-    "back_step_angle",
-    "tolerance_dwell_angle",
-    "tolerance_dwell_start",
-    "output_speed_max",
-    "output_speed_min",
+    *("steps", "speed_ratio_max", "speed_ratio_min", "back_step_angle", "tolerance_dwell_angle"),
+    *("tolerance_dwell_start", "output_speed_max", "output_speed_min"),
 )
+_RODS = ("rod_length", "stroke", "dwell_ripple", "ripple_share", "tolerance_carrier_angle", "min_transmission_angle")
 _SHARED = (
     *("planet_teeth", "ring_teeth", "carrier_length", "point_radius", "contact_ratio", "input_speed", "turn_time"),
     "dwell_time",
@@ -536,45 +530,19 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
     spec: HypocycloidDwellSpec
     keys = {
         "analyze": (
-            ("dwell_carrier_angle", "dwell.angle"),
-            "dwell_ripple",
-            ("ripple_share", "<target.quality"),
-            "stroke",
-            "rod_length",
-            "tolerance_carrier_angle",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "dwell_time",
-            "slider_acceleration_max",
-            "velocity_max",
-            "acceleration_max",
+            *(("dwell_carrier_angle", "dwell.angle"), "dwell_ripple", ("ripple_share", "<target.quality"), "stroke"),
+            *("rod_length", "tolerance_carrier_angle", ("min_transmission_angle", ">limits.transmission_angle")),
+            *("dwell_time", "slider_acceleration_max", "velocity_max", "acceleration_max"),
         )
     }
     outlines = {
         "analyze": Outline(
             (
-                "cusps",
-                "planet_teeth",
-                "ring_teeth",
-                "carrier_length",
-                "point_radius",
-                "rod_length",
-                "tangent_circle_length",
-                "osculating_length",
-                "dwell_carrier_angle",
-                "dwell_ripple",
-                "dwell_deviation_min",
-                "dwell_deviation_max",
-                "tolerance_carrier_angle",
-                "stroke",
-                "ripple_share",
-                "min_transmission_angle",
-                "contact_ratio",
-                *names("velocity", "acceleration"),
-                "input_speed",
-                "turn_time",
-                *SLIDER_SPEEDS,
-                "dwell_time",
-                *_ARM,
+                *("cusps", "planet_teeth", "ring_teeth", "carrier_length", "point_radius", "rod_length"),
+                *("tangent_circle_length", "osculating_length", "dwell_carrier_angle", "dwell_ripple"),
+                *("dwell_deviation_min", "dwell_deviation_max", "tolerance_carrier_angle", "stroke", "ripple_share"),
+                *("min_transmission_angle", "contact_ratio", *names("velocity", "acceleration"), "input_speed"),
+                *("turn_time", *SLIDER_SPEEDS, "dwell_time", *_ARM),
             ),
             ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("motion",),
@@ -615,9 +583,15 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The rods of every rule side by side."""
-        from gearlink.core.machines.dwell_gears.candidates import hypocycloid
+        from gearlink.core.base.candidates import Sought, nothing_sought, table
 
-        return hypocycloid(self)
+        if self.spec.is_arm or self.spec.point.ratio != 1.0:
+            raise nothing_sought("the rod is found only for a slider whose point lies on the pitch circle")
+        rules = ["tangent-circle", "osculating", "minimax"]
+        qualities = ["least-ripple", *(["widest-dwell"] if self.spec.dwell.tolerance is not None else [])]
+        rows = [({"rule": rule}, None) for rule in rules] + [(None, {"quality": quality}) for quality in qualities]
+        keys = {"rod": ("", ""), "target": ("", "")}
+        return table(self, Sought("analyze", keys, rows, _RODS, "rod", [*rules, *qualities]))
 
     cost = 7.0  # a rod that is sought
 
@@ -693,21 +667,15 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
     @property
     def tangent_circle_length(self) -> float | None:
         """Rod of the circle through the ends and the middle of the dwell [mm]; None beside the pitch circle."""
-        return self._tangent_circle if self.spec.point.ratio == 1.0 else None
-
-    @property
-    def _tangent_circle(self) -> float:
+        if self.spec.point.ratio != 1.0:
+            return None
         with at_key("dwell.angle"):
             return tangent_circle(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     @property
     def osculating_length(self) -> float | None:
         """Rod of the circle of curvature [mm]; None beside the pitch circle."""
-        return self._osculating if self.spec.point.ratio == 1.0 else None
-
-    @property
-    def _osculating(self) -> float:
-        return osculating(self.point_radius, self.cusps)
+        return osculating(self.point_radius, self.cusps) if self.spec.point.ratio == 1.0 else None
 
     @property
     def dwell_carrier_angle(self) -> float:
@@ -718,26 +686,19 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
     @cached_property
     def rod_length(self) -> float:
         """Rod [mm], given, by rule or by target."""
-        if self.spec.target is not None:
-            return self._rod_for_target(self.spec.target.quality)
-        rod = self.spec.rod
-        if rod is not None and rod.length is not None:
+        rod, target, tolerance = self.spec.rod, self.spec.target, self.spec.dwell.tolerance
+        if target is None and rod is not None and rod.length is not None:
             return rod.length
-        rule = None if rod is None else rod.rule
-        if rule == "osculating":
-            return self._osculating
-        if rule == "tangent-circle":
-            return self._tangent_circle
-        with at_key("dwell.angle"):
-            return minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
-
-    def _rod_for_target(self, quality: str) -> float:
-        tolerance = self.spec.dwell.tolerance
-        if quality == "widest-dwell" and tolerance is not None:
+        if target is not None and target.quality == "widest-dwell" and tolerance is not None:
             with at_key("dwell.tolerance"):
                 return widest_dwell(self.point_radius, self.cusps, tolerance)
+        if rod is not None and rod.rule == "osculating":
+            return osculating(self.point_radius, self.cusps)
+        way = minimax if target is None else least_ripple
+        if rod is not None and rod.rule == "tangent-circle":
+            way = tangent_circle
         with at_key("dwell.angle"):
-            return least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
+            return way(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     def completion(self) -> Iterator[Found]:
         """The rod instead of the target or the rule."""
@@ -852,27 +813,25 @@ class HypocycloidDwell(SliderSpeed, WithShafts, Meshed):
 
     @cached_property
     def layout(self) -> Layout:
-        """The bodies in the plane of the gears."""
-        return hypocycloid_layout(self)
+        """The planet on its carrier, which goes round the shaft O, and the ring gear."""
+        spec, mesh = self.spec, self.mesh
+        gears = Gear("the planet", "M", mesh.tip_radius[0], mates="O"), ring_gear("O", mesh, rim=self.rim_of(""))
+        way, least = {"MO": constant(self.carrier_length)}, least_shaft(spec.limits, spec.gears.module)
+        return Layout(gears, shafts_at("O", spec.shafts), way, least)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a revolution of the carrier; the middle of the dwell is at carrier angle 0."""
+        point = -self.spec.point.ratio * self.point_radius
+        path = Column("x", coordinate("planet", point)), Column("y", coordinate("planet", point, 1j))
         if self.spec.is_arm:
-            course, place = turned("arm"), -self.arm.ratio * self.point_radius
-            of_arm = [
-                *of_output(course),
-                Column("x", coordinate("planet", place)),
-                Column("y", coordinate("planet", place, 1j)),
-            ]
-            return motion_table("motion", self, of_arm, samples)
-        way, point = outwards(self), -self.slider.ratio * self.slider.planet_radius
+            return motion_table("motion", self, [*of_output(turned("arm")), *path], samples)
+        way = outwards(self)
         shown = [
             Column("deviation", way.scaled(-1.0)),
             Column("velocity", way, 1, "slider_velocity"),
             Column("acceleration", way, 2, "slider_acceleration"),
             Column("rod_angle", turned("rod", sense=-1.0)),
-            Column("x", coordinate("planet", point)),
-            Column("y", coordinate("planet", point, 1j)),
+            *path,
         ]
         return motion_table("motion", self, shown, samples)
 
@@ -907,23 +866,14 @@ def errors(design: HypocycloidDwell, mechanism: Mechanism) -> Movable:
     """The rod, the carrier, which is the centre distance of planet and ring, and the planet's teeth."""
     from gearlink.core.mechanism.dual import longer
     from gearlink.core.studies.movable import Movable, Turned
-    from gearlink.core.studies.tolerance.sources import GearOfSource
 
-    gears, arm = design.spec.gears, design.carrier_length
+    spec, arm = design.spec, design.carrier_length
     ends = {"centers.planet_ring": ("carrier", arm)}
-    if not design.spec.is_arm:
+    if not spec.is_arm:
         ends["rod.length"] = ("rod", design.slider.rod)
-    sizes = longer(mechanism, ends)
-    alpha = math.radians(gears.pressure_angle)
-    teeth = {name: GearOfSource(gears.module, gears.module * z, alpha) for name, z in
-             (("planet", gears.planet), ("ring", gears.ring))}  # fmt: skip
-    links = {"planet": "planet", "ring": FRAME}
-    return Movable(
-        sizes,
-        {"planet_ring": arm},
-        gears={name: Turned(links[name], each) for name, each in teeth.items()},
-        radius=arm if design.spec.is_arm else 0.0,
-    )
+    links = {"planet": ("planet", spec.gears.planet), "ring": (FRAME, spec.gears.ring)}
+    gears = {name: Turned.of(link, spec.gears, z) for name, (link, z) in links.items()}
+    return Movable(longer(mechanism, ends), {"planet_ring": arm}, gears=gears, radius=arm if spec.is_arm else 0.0)
 
 
 def motion(design: HypocycloidDwell) -> Motion:
@@ -938,15 +888,9 @@ def motion(design: HypocycloidDwell) -> Motion:
         turn, end = slider(point, rod, 0j, 1.0 + 0j)
         links["rod"] = Link(point, turn, {"M": 0.0, "F": rod})
         links["slider"] = Link(end, standing(0.0, phi, order=order), {"F": 0.0})
-        connections = [
-            pin,
-            axis,
-            Pin("M", "planet", "rod", point.value),
-            Pin("F", "rod", "slider", end.value),
-            Guide("guide", FRAME, "slider", end.value, 1.0 + 0j),
-            mesh,
-        ]
-        return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})
+        pins = Pin("M", "planet", "rod", point.value), Pin("F", "rod", "slider", end.value)
+        guide = Guide("guide", FRAME, "slider", end.value, 1.0 + 0j)
+        return Mechanism(links, [pin, axis, *pins, guide, mesh], "carrier", travel={"slider": 1.0 + 0j})
 
     outputs = (Output("Slider F, outwards", outwards(design)),)
     return Motion(make, Input("carrier_angle"), outputs, transmission=least_transmission("F"))
@@ -983,8 +927,7 @@ def _arm_motion(design: HypocycloidDwell) -> Motion:
         return Mechanism(links, [pin, axis, Pin("D", FRAME, "arm", arm.origin.value), slot, mesh], "carrier")
 
     turns = design.planet_teeth // math.gcd(design.planet_teeth, design.ring_teeth)
-    course = turned("arm")
-    return Motion(make, Input("carrier_angle", end=2.0 * math.pi * turns, turns=turns), (Output("Arm", course),))
+    return Motion(make, Input("carrier_angle", end=_TURN * turns, turns=turns), (Output("Arm", turned("arm")),))
 
 
 def outwards(design: HypocycloidDwell) -> Course:

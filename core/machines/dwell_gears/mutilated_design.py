@@ -24,7 +24,6 @@ from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short
-from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
 from gearlink.core.mechanism.courses import Shown as Column
 from gearlink.core.mechanism.courses import between, motion_table, turned
 from gearlink.core.mechanism.joints import Connection, Pin, ToothDrive
@@ -41,7 +40,7 @@ from gearlink.core.parts.linkages.codes import LOCKING, TARGET
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot, rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
+from gearlink.core.studies.clearance import SHAFT_WAYS, Gear, Layout, WithShafts, constant, least_shaft, shafts_at
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.locking import Lock
@@ -220,6 +219,10 @@ _SHOWN_CYCLES = 100
 # A rocker that starts with less than this share of the driven gear's speed starts from rest.
 _AT_REST = 1e-6
 _FOUND = "found for target"
+_CANDIDATES = (
+    *("full_teeth", "group_teeth", "reduction", "center_distance", "motion_turns", "dwell_turns"),
+    *("driven_speed_ratio", "rocker_start_speed", "min_transmission_angle"),
+)
 
 
 _TEETH = (
@@ -260,64 +263,25 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
     spec: MutilatedGearDwellSpec
     keys = {
         "analyze": (
-            ("motion_time", "target.motion_time"),
-            ("dwell_time", "target.dwell_time"),
-            ("motion_turns", "target.motion_turns"),
-            ("dwell_turns", "target.dwell_turns"),
-            ("?driven_turn", "target.driven_turn"),
-            "full_teeth",
-            "group_teeth",
-            "driven_teeth",
-            "center_distance",
-            "locking_play",
-            "rocker_start_speed",
-            ("min_transmission_angle", ">limits.transmission_angle"),
+            *(("motion_time", "target.motion_time"), ("dwell_time", "target.dwell_time")),
+            *(("motion_turns", "target.motion_turns"), ("dwell_turns", "target.dwell_turns")),
+            *(("?driven_turn", "target.driven_turn"), "full_teeth", "group_teeth", "driven_teeth", "center_distance"),
+            *("locking_play", "rocker_start_speed", ("min_transmission_angle", ">limits.transmission_angle")),
             "rocker_swing",
         )
     }
     outlines = {
         "analyze": Outline(
             (
-                "reduction",
-                "full_teeth",
-                "group_teeth",
-                "driven_teeth",
-                "stops",
-                "cycle_turns",
-                "motion_turns",
-                "dwell_turns",
-                "motion_share",
-                "dwell_share",
-                "driven_turn",
-                "driven_speed_ratio",
-                "cycles_to_repeat",
-                "center_distance",
-                "contact_ratio",
-                "end_tooth_radius",
-                "locking_radius",
-                "locking_arc",
-                "held_turns",
-                "locking_play",
-                "locking_arm",
-                "start_crank_angle",
-                "rocker_swing",
-                "rocker_start_speed",
-                "min_transmission_angle",
-                "input_speed",
-                "turn_time",
-                "motion_time",
-                "dwell_time",
-                "driven_speed",
-                "rocker_speed_at_start",
+                *("reduction", "full_teeth", "group_teeth", "driven_teeth", "stops", "cycle_turns", "motion_turns"),
+                *("dwell_turns", "motion_share", "dwell_share", "driven_turn", "driven_speed_ratio"),
+                *("cycles_to_repeat", "center_distance", "contact_ratio", "end_tooth_radius", "locking_radius"),
+                *("locking_arc", "held_turns", "locking_play", "locking_arm", "start_crank_angle", "rocker_swing"),
+                *("rocker_start_speed", "min_transmission_angle", "input_speed", "turn_time", "motion_time"),
+                *("dwell_time", "driven_speed", "rocker_speed_at_start"),
             ),
             (
-                "target",
-                "start-shock",
-                "gap",
-                "locking",
-                "shaft-clearance",
-                "shaft-seat",
-                "transmission-angle",
+                *("target", "start-shock", "gap", "locking", "shaft-clearance", "shaft-seat", "transmission-angle"),
                 *GEAR_CHECKS,
             ),
             ("motion",),
@@ -389,9 +353,15 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The required times met by other driven gears and by more groups."""
-        from gearlink.core.machines.dwell_gears.candidates import mutilated
+        from gearlink.core.base.candidates import Sought, nothing_sought, pairs, table
 
-        return mutilated(self)
+        spec = self.asked
+        if spec.target is None or spec.reduction is not None:
+            raise nothing_sought("give target: {motion_turns, dwell_turns} and omit reduction and teeth")
+        keys = {"gears.groups": ("groups", "1"), "gears.driven": ("driven_teeth", "1")}
+        rows = pairs(sorted({1, 2, spec.gears.groups}), sorted({17, 20, 24, 30, 36, self.driven_teeth}))
+        # Each candidate chooses its teeth anew, from what the file asks for.
+        return table(self, Sought("analyze", keys, rows, _CANDIDATES), spec)
 
     # The root of the tooth next to a gap
 
@@ -464,12 +434,12 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
 
     @cached_property
     def start_crank_angle(self) -> float | None:
-        """Crank angle of the dwell [rad]."""
+        """Crank angle of the dwell [rad], by default with crank and coupler stretched (in a drag link: farthest C)."""
         if self.linkage is None:
             return None
         if self.spec.start_angle is not None:
             return math.radians(self.spec.start_angle)
-        return self._dead_centers(self.linkage)[1]
+        return joint_to_crank_pivot(self.linkage)[1].crank_angle
 
     @property
     def rocker_swing(self) -> float | None:
@@ -507,16 +477,22 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
         """Time for which it stands [ms]."""
         return None if self.turn_time is None else self.turn_time * self.dwell_turns
 
-    @staticmethod
-    def _dead_centers(linkage: FourBar) -> tuple[float, float]:
-        """Crank angles where crank and coupler fold and stretch (in a drag link: nearest and farthest C) [rad]."""
-        folded, stretched = joint_to_crank_pivot(linkage)
-        return folded.crank_angle, stretched.crank_angle
-
     @cached_property
     def layout(self) -> Layout:
-        """The bodies in the plane of the gears."""
-        return mutilated_layout(self)
+        """The wheel stands on any side of A, its distance from the shaft D free, unless the loads say where."""
+        spec, mesh, linkage = self.spec, self.mesh, self.linkage
+        (wheel, driven), (wheel_root, driven_root) = mesh.tip_radius, mesh.root_radius
+        gears = (
+            Gear("the mutilated wheel", "W", wheel, mates="A", root=wheel_root),
+            Gear("the driven gear", "A", driven, root=driven_root),
+        )
+        reaches, axes = {"AW": constant(mesh.center_distance)}, "AW"
+        if linkage is not None:
+            reaches["AD"], axes = constant(linkage.frame), "ADW"
+            if spec.loads is not None and spec.loads.wheel_direction is not None:
+                place = cmath.rect(mesh.center_distance, math.radians(spec.loads.wheel_direction))
+                reaches["DW"] = constant(abs(place - linkage.frame))
+        return Layout(gears, shafts_at(axes, spec.shafts), reaches, least_shaft(spec.limits, spec.gears.module))
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker until both are back at the start, or over a hundred cycles; a motion begins at 0."""
@@ -592,8 +568,7 @@ class MutilatedGearDwell(RealSpeed, WithShafts, Meshed):
             self.mutilated.gap - self.mesh.contact_ratio,
             "travel of the wheel without contact over the pitch",
         )
-        remedy = "reduce gears.group_teeth, so that the locking arc fits"
-        return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
+        return GAP.below(free, 0.0, 1.0, "1", subject, "reduce gears.group_teeth, so that the locking arc fits")
 
     def check_locking(self) -> Iterator[Check]:
         """GL344: metal between the plate's arc and the shaft of the gear, and between the cut-out and the wheel's."""
@@ -621,14 +596,11 @@ def errors(design: MutilatedGearDwell, mechanism: Mechanism) -> Movable:
     """The links of the four-bar, the angle at which it starts, and the runout of the driven gear."""
     from gearlink.core.mechanism.dual import Shift, longer
     from gearlink.core.studies.movable import Movable, Turned
-    from gearlink.core.studies.tolerance.sources import GearOfSource
 
     bar, gears = design.linkage, design.spec.gears
-    diameter = gears.module * design.driven_teeth
-    driven = GearOfSource(gears.module, diameter, math.radians(gears.pressure_angle))
-    found = {"driven": Turned("crank", driven)}
+    found = {"driven": Turned.of("crank", gears, design.driven_teeth)}
     if bar is None:
-        return Movable(gears=found, radius=0.5 * diameter)
+        return Movable(gears=found, radius=0.5 * gears.module * design.driven_teeth)
     ends = {f"links.{name}": (name, getattr(bar, name)) for name in ("crank", "coupler", "rocker")}
     sizes = longer(mechanism, ends | {"links.frame": (FRAME, bar.frame)})
     sizes["start_angle"] = (Shift("crank", ("B",), math.radians(1.0), turned=True),)

@@ -92,9 +92,8 @@ class MutilatedGearLoads(LoadsDesign):
             message = (
                 f"centre of mass of the wheel: {short(abs(wheel.center))} mm off its axis (limit 0: it is balanced)"
             )
-            raise NoSolution(
-                message, key="loads.links.wheel.center", fix="omit it, and add mass times center^2 to inertia"
-            )
+            fix = "omit it, and add mass times center^2 to inertia"
+            raise NoSolution(message, key="loads.links.wheel.center", fix=fix)
         return wheel.inertia / self.design.reduction**2
 
     @property
@@ -112,11 +111,9 @@ class MutilatedGearLoads(LoadsDesign):
         E = J_red w_F^2/2,  J_red of all links at the driven shaft
         """
         count = self.design.cycles_to_repeat
-        starts = np.arange(count, dtype=np.float64) * (TURN * self.design.driven_turn) + (
-            self.design.start_crank_angle or 0.0
-        )
+        first = self.design.start_crank_angle or 0.0
+        starts = np.arange(count, dtype=np.float64) * (TURN * self.design.driven_turn) + first
         links = four_bar(self.linkage, starts, 2)
-
         found = reduced(Mechanism(links, [], "crank"), self.masses, [], 0j)
         driven = self.speed * self.design.mutilated.speed_ratio
         return float(np.max(found.inertia)) * driven**2 / 2.0

@@ -64,15 +64,10 @@ def _across(way: complex) -> Course:
 
 def _gears(design: GearedFiveBar) -> dict[str, Turned]:
     from gearlink.core.studies.movable import Turned
-    from gearlink.core.studies.tolerance.sources import GearOfSource
 
-    gears, alpha = design.spec.gears, math.radians(design.spec.gears.pressure_angle)
+    gears = design.spec.gears
     links = {"input": "input", "idler": "idler", "output": "output", "planet": "coupler", "sun": FRAME, "ring": FRAME}
-    return {
-        name: Turned(link, GearOfSource(gears.module, gears.module * teeth, alpha))
-        for name, link in links.items()
-        if (teeth := getattr(gears, name)) is not None
-    }
+    return {name: Turned.of(link, gears, z) for name, link in links.items() if (z := getattr(gears, name)) is not None}
 
 
 def motion(design: GearedFiveBar) -> Motion:

@@ -36,21 +36,17 @@ def _movable(
 ) -> Movable:
     from gearlink.core.mechanism.dual import longer
     from gearlink.core.studies.movable import Movable, Turned
-    from gearlink.core.studies.tolerance.sources import GearOfSource
 
     bar, gears = design.linkage, design.spec.gears
     ends = {f"links.{name}": (name, getattr(bar, name)) for name in ("crank", "coupler", "rocker")}
     sizes = longer(mechanism, ends | {"links.frame": (FRAME, bar.frame)})
-    center, alpha = f"{coupler_gear}_{output_gear}", math.radians(gears.pressure_angle)
+    center = f"{coupler_gear}_{output_gear}"
     sizes[f"centers.{center}"] = sizes[f"links.{carrier}"]
     teeth = {coupler_gear: ("coupler", coupler_teeth), output_gear: ("output", design.output_teeth)}
     return Movable(
         sizes,
         {center: getattr(bar, carrier)},
-        gears={
-            name: Turned(link, GearOfSource(gears.module, gears.module * abs(z), alpha))
-            for name, (link, z) in teeth.items()
-        },
+        gears={name: Turned.of(link, gears, z) for name, (link, z) in teeth.items()},
         radius=0.5 * gears.module * abs(design.output_teeth),
     )
 

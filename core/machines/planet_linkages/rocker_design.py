@@ -175,41 +175,18 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
     spec: GearedRockerSpec
     keys = {
         "analyze": (
-            ("output_swing", "target.swing"),
-            "crank_length",
-            "swing_multiple",
-            "rocker_swing",
-            "extreme_crank_angles",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "output_speed_max",
-            "output_acceleration_max",
-            "speed_ratio_max",
-            "acceleration_ratio_max",
-            "contact_ratio",
+            *(("output_swing", "target.swing"), "crank_length", "swing_multiple", "rocker_swing"),
+            *("extreme_crank_angles", ("min_transmission_angle", ">limits.transmission_angle"), "output_speed_max"),
+            *("output_acceleration_max", "speed_ratio_max", "acceleration_ratio_max", "contact_ratio"),
         )
     }
     outlines = {
         "analyze": Outline(
             (
-                "coupler_gear_teeth",
-                "output_teeth",
-                "gear_ratio",
-                "crank_length",
-                "coupler_length",
-                "rocker_length",
-                "frame_length",
-                "rocker_swing",
-                "output_swing",
-                "swing_multiple",
-                "naive_multiple",
-                "extreme_crank_angles",
-                *names("speed_ratio"),
-                *names("acceleration_ratio"),
-                "min_transmission_angle",
-                "swing_residual",
-                "contact_ratio",
-                "input_speed",
-                "turn_time",
+                *("coupler_gear_teeth", "output_teeth", "gear_ratio", "crank_length", "coupler_length"),
+                *("rocker_length", "frame_length", "rocker_swing", "output_swing", "swing_multiple", "naive_multiple"),
+                *("extreme_crank_angles", *names("speed_ratio"), *names("acceleration_ratio")),
+                *("min_transmission_angle", "swing_residual", "contact_ratio", "input_speed", "turn_time"),
                 *OUTPUT_SPEEDS,
             ),
             ("target", "shaft-clearance", "shaft-seat", "transmission-angle", *GEAR_CHECKS, "backlash"),

@@ -38,37 +38,12 @@ if TYPE_CHECKING:
 _STANDSTILL_TOLERANCE = 1e-9
 
 QUANTITIES = (
-    "planet_teeth",
-    "output_teeth",
-    "gear_ratio",
-    "linkage_kind",
-    "crank_length",
-    "coupler_length",
-    "rocker_length",
-    "frame_length",
-    "mean_ratio",
-    "speed_ratio_max",
-    "speed_ratio_min",
-    "speed_ratio_max_at",
-    "speed_ratio_min_at",
-    "nonuniformity",
-    "coupler_ratio_max",
-    "coupler_ratio_min",
-    "standstill_coupler_ratio",
-    "dwell_teeth_ratio",
-    "motion",
-    "dwell_crank_angles",
-    "back_step_angle",
-    "back_step_crank_angle",
-    "min_transmission_angle",
-    "contact_ratio",
-    *names("acceleration_ratio"),
-    "rocker_swing",
-    "input_speed",
-    "turn_time",
-    *OUTPUT_SPEEDS,
-    "back_step_time",
-    *FEED_QUANTITIES,
+    *("planet_teeth", "output_teeth", "gear_ratio", "linkage_kind", "crank_length", "coupler_length", "rocker_length"),
+    *("frame_length", "mean_ratio", "speed_ratio_max", "speed_ratio_min", "speed_ratio_max_at", "speed_ratio_min_at"),
+    *("nonuniformity", "coupler_ratio_max", "coupler_ratio_min", "standstill_coupler_ratio", "dwell_teeth_ratio"),
+    *("motion", "dwell_crank_angles", "back_step_angle", "back_step_crank_angle", "min_transmission_angle"),
+    *("contact_ratio", *names("acceleration_ratio"), "rocker_swing", "input_speed", "turn_time", *OUTPUT_SPEEDS),
+    *("back_step_time", *FEED_QUANTITIES),
 )
 OF_DWELL = ("tolerance_dwell_angle", "tolerance_dwell_start", "tolerance_dwell_time")
 CHECKS = ("dwell-condition", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS, "backlash",
@@ -89,18 +64,9 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
     spec: TwoGearFourBarSpec
     keys = {
         "analyze": (
-            "motion",
-            ("tolerance_dwell_angle", "dwell_window"),
-            "back_step_angle",
-            "dwell_crank_angles",
-            "mean_ratio",
-            "speed_ratio_max",
-            "speed_ratio_min",
-            "output_acceleration_max",
-            "feed_per_turn",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "linkage_kind",
-            "acceleration_ratio_max",
+            *("motion", ("tolerance_dwell_angle", "dwell_window"), "back_step_angle", "dwell_crank_angles"),
+            *("mean_ratio", "speed_ratio_max", "speed_ratio_min", "output_acceleration_max", "feed_per_turn"),
+            *(("min_transmission_angle", ">limits.transmission_angle"), "linkage_kind", "acceleration_ratio_max"),
         )
     }
     outlines = {

@@ -22,11 +22,7 @@ _MARGIN = 0.01
 _FIT = 1e-6  # deg, what a back-step of the printed frame may miss
 _TABLES = (*TwoGearFourBar.extra_tables, "candidates")
 _DWELL = (
-    "tolerance_dwell_angle",
-    "tolerance_dwell_start",
-    "dwell_tolerance",
-    "window_limit",
-    "frame_length_interval",
+    *("tolerance_dwell_angle", "tolerance_dwell_start", "dwell_tolerance", "window_limit", "frame_length_interval"),
     "tolerance_dwell_time",
 )
 
@@ -57,15 +53,8 @@ class MomentaryDwellSynthesis(TwoGearFourBar):
     keys = dict.fromkeys(
         ("synth momentary-dwell", "analyze"),
         (
-            "motion",
-            "dwell_crank_angles",
-            "frame_length",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "back_step_angle",
-            "mean_ratio",
-            "speed_ratio_max",
-            "output_acceleration_max",
-            "feed_per_turn",
+            *("motion", "dwell_crank_angles", "frame_length", ("min_transmission_angle", ">limits.transmission_angle")),
+            *("back_step_angle", "mean_ratio", "speed_ratio_max", "output_acceleration_max", "feed_per_turn"),
             "acceleration_ratio_max",
         ),
     )
@@ -84,15 +73,9 @@ class BackStepSynthesis(TwoGearFourBar):
     keys = dict.fromkeys(
         ("synth back-step", "analyze"),
         (
-            ("back_step_angle", "back_step.angle"),
-            "back_step_crank_angle",
-            "frame_length",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "mean_ratio",
-            "speed_ratio_max",
-            "output_acceleration_max",
-            "feed_per_turn",
-            "acceleration_ratio_max",
+            *(("back_step_angle", "back_step.angle"), "back_step_crank_angle", "frame_length"),
+            *(("min_transmission_angle", ">limits.transmission_angle"), "mean_ratio", "speed_ratio_max"),
+            *("output_acceleration_max", "feed_per_turn", "acceleration_ratio_max"),
         ),
     )
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
@@ -140,17 +123,9 @@ class DwellSynthesis(TwoGearFourBar):
     keys = dict.fromkeys(
         ("synth dwell", "analyze"),
         (
-            ("tolerance_dwell_angle", "dwell.window"),
-            ("dwell_tolerance", "<dwell.tolerance"),
-            "frame_length",
-            "frame_length_interval",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "back_step_angle",
-            "mean_ratio",
-            "speed_ratio_max",
-            "output_acceleration_max",
-            "feed_per_turn",
-            "acceleration_ratio_max",
+            *(("tolerance_dwell_angle", "dwell.window"), ("dwell_tolerance", "<dwell.tolerance"), "frame_length"),
+            *("frame_length_interval", ("min_transmission_angle", ">limits.transmission_angle"), "back_step_angle"),
+            *("mean_ratio", "speed_ratio_max", "output_acceleration_max", "feed_per_turn", "acceleration_ratio_max"),
         ),
     )
     outlines = with_analysis(

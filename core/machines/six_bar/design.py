@@ -77,41 +77,19 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     spec: GearedSixBarSpec
     keys = {
         "analyze": (
-            "output_swing",
-            "mean_ratio",
-            "dwell_crank_angles",
-            ("min_transmission_angle", ">limits.transmission_angle"),
-            "output_speed_max",
-            "output_acceleration_max",
-            "speed_ratio_max",
-            "speed_ratio_min",
-            "acceleration_ratio_max",
-            ("gear_gap", ">limits.gear_gap"),
+            *("output_swing", "mean_ratio", "dwell_crank_angles"),
+            *(("min_transmission_angle", ">limits.transmission_angle"), "output_speed_max", "output_acceleration_max"),
+            *("speed_ratio_max", "speed_ratio_min", "acceleration_ratio_max", ("gear_gap", ">limits.gear_gap")),
             "center_distance",
         )
     }
     outlines = {
         "analyze": Outline(
             (
-                "input_length",
-                "coupler_length",
-                "output_length",
-                "frame_length",
-                "start_directions",
-                "period_turns",
-                "mean_ratio",
-                "output_swing",
-                *names("speed_ratio"),
-                "dwell_crank_angles",
-                *names("acceleration_ratio"),
-                "min_transmission_angle",
-                "min_transmission_angle_at",
-                "center_distance",
-                "gear_gap",
-                "contact_ratio",
-                "input_speed",
-                "turn_time",
-                *OUTPUT_SPEEDS,
+                *("input_length", "coupler_length", "output_length", "frame_length", "start_directions"),
+                *("period_turns", "mean_ratio", "output_swing", *names("speed_ratio"), "dwell_crank_angles"),
+                *(*names("acceleration_ratio"), "min_transmission_angle", "min_transmission_angle_at"),
+                *("center_distance", "gear_gap", "contact_ratio", "input_speed", "turn_time", *OUTPUT_SPEEDS),
             ),
             ("gear-collision", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS),
             ("motion",),

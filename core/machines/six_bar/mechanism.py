@@ -25,7 +25,6 @@ def errors(design: GearedSixBar, mechanism: Mechanism) -> Movable:
     """Links, where they carry a mesh its centre distance, and the runout of free gears; measured at the pin E."""
     from gearlink.core.mechanism.dual import longer
     from gearlink.core.studies.movable import Movable, Turned
-    from gearlink.core.studies.tolerance.sources import GearOfSource
 
     ends = {f"links.{name}": (name, length) for name, length in zip(LINKS[1:], design.lengths[1:], strict=True)}
     sizes = longer(mechanism, ends | {"links.frame": (FRAME, design.lengths[0])})
@@ -34,8 +33,7 @@ def errors(design: GearedSixBar, mechanism: Mechanism) -> Movable:
     gears = {}
     for number, train in enumerate(design.spec.trains, start=1):
         for name, z in list(zip(gear_bodies(train, number), train.gears, strict=True))[1:-1]:
-            teeth = GearOfSource(train.module, train.module * abs(z), math.radians(train.pressure_angle))
-            gears[name] = Turned(name, teeth)
+            gears[name] = Turned.of(name, train, z)
     return Movable(sizes, centers, gears=gears, radius=design.lengths[5])
 
 
