@@ -22,7 +22,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import short
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, outputs
-from gearlink.core.machines.five_bar.path import extent, rates, spread
+from gearlink.core.machines.five_bar.path import rates, spread
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import turn_degrees
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
@@ -52,13 +52,6 @@ if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.guidance import Guidance
     from gearlink.core.machines.five_bar.spec import GearedFiveBarSpec
     from gearlink.core.numerics.extremes import Extreme
-
-
-def layout_of_bodies(design: GearedFiveBar) -> Layout:
-    """The bodies of either form."""
-    gears, reaches = _path(design) if design.is_path else _function(design)
-    spec, axes = design.spec, "AEO" if design.spec.gears.idler is not None else "AE"
-    return Layout(gears, shafts_at(axes, spec.shafts), reaches, least_shaft(spec.limits, spec.gears.module))
 
 
 def _path(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
@@ -105,32 +98,9 @@ _CANDIDATES_LINKS = ("input_length", "coupler_length", "follower_length", "outpu
 _QUALITY = ("path_deviation_rms", "path_deviation_max", "structural_error", "min_transmission_angle")
 
 
-def five_bar(design: GearedFiveBar) -> Table:
-    """Gears in the ratios 1, 2 and 1/2 in both assemblies; each row is a search of its own."""
-    if design.spec.target is None:
-        raise nothing_sought("give target: points, positions or a function")
-    one, other = _names(design)
-    own = getattr(design.spec.gears, one), getattr(design.spec.gears, other)
-    keys = {
-        f"gears.{one}": (f"{one}_teeth", "1"),
-        f"gears.{other}": (f"{other}_teeth", "1"),
-        "assembly": ("assembly", "1"),
-    }
-    teeth = list(dict.fromkeys((own, *((min(own) * p, min(own) * q) for p, q in _RATIOS))))
-    # A function's search takes seconds: it keeps to the file's assembly.
-    sides = (1, -1) if design.is_path else (design.spec.assembly,)
-    rows = [(*pair, side) for pair in teeth for side in sides]
-    return table(design, Sought("analyze", keys, rows, (*_CANDIDATES_LINKS, *_QUALITY)))
-
-
-def _names(design: GearedFiveBar) -> tuple[str, str]:
-    if design.is_path:
-        return "input", "output"
-    return "planet", "ring" if design.spec.gears.ring is not None else "sun"
-
-
+MESHES = ("input_idler", "idler_output")
+_TURN = 2.0 * math.pi
 _PER_WAVE, _MOST = 360, 20_000
-_EXTREMES_TURN = 2.0 * math.pi
 
 
 def path_extremes(bar: PathFiveBar, offset: complex) -> dict[str, float]:
@@ -159,20 +129,105 @@ def function_extremes(bar: FunctionFiveBar, start: float, end: float) -> dict[st
     """
     rates = kept_last(bar.output_rates)
     curves = {"speed_ratio": lambda phi: rates(phi)[0], "acceleration_ratio": lambda phi: rates(phi)[1]}
-    waves = float(np.max(end - start)) / _EXTREMES_TURN * max(1.0, abs(bar.coupler_ratio))
+    waves = float(np.max(end - start)) / _TURN * max(1.0, abs(bar.coupler_ratio))
     return extremes(curves, start, end, samples=max(64, min(_MOST, math.ceil(_PER_WAVE * waves))))
 
 
-MESHES = ("input_idler", "idler_output")
-_TURN = 2.0 * math.pi
+_SHOWN_TURNS = 100
+_POSE_FIT = 1e-6
+"""[mm, deg]"""
+_LISTS = ("center_distance", "contact_ratio")
+"""One for each mesh, whatever their number."""
+_POSITION_TOLERANCE = math.degrees(1e-9)
+_FEW_TURNS = 3
+_FIT, _TOO_LONG = 100.0, 1e6
+"""Trials of designs without a target that one fit takes as long as, and how many are tried with one."""
+_TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
+_FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
+_LINKS = (
+    up("links.coupler", "links.follower"),
+    *either("links.coupler", "links.follower", "links.output", "links.input", "links.frame"),
+)
+_OF_PATH = names("velocity", "acceleration")
+_OF_FUNCTION = names("speed_ratio", "acceleration_ratio")
 
 
-class FiveBarParts(Meshed):
-    """The five-bar of a design file, given or found, in either form."""
+class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, Meshed):
+    """A five-bar whose gears take away one of its two freedoms."""
 
+    kind = "geared-five-bar"
     spec: GearedFiveBarSpec
+    keys = {
+        "analyze": (
+            *("structural_error", "position_errors", "path_deviation_max", "path_deviation_rms"),
+            *(("min_transmission_angle", ">limits.transmission_angle"), "path_width", "path_height", "point_speed_max"),
+            *("point_acceleration_max", "input_length", "coupler_length", "follower_length", "output_length"),
+            *("frame_length", "phase", "speed_ratio_max", "speed_ratio_min"),
+        )
+    }
+    outlines = {
+        "analyze": Outline(
+            (
+                *("form", "five_bar_ratio", "coupler_ratio", "period_turns", "input_length", "coupler_length"),
+                *("follower_length", "output_length", "frame_length", "phase", "assembly", "point_along"),
+                *("point_across", "span_min", "span_min_at", "span_max", "span_max_at", "min_transmission_angle"),
+                *("min_transmission_angle_at", *_OF_PATH, *_OF_FUNCTION, "path_width", "path_height", "phase_step"),
+                *("path_deviation_rms", "path_deviation_max", "pose_error_max", "pose_error_rms"),
+                *("pose_angle_error_max", "body_angle", "frame_place", "frame_direction", "position_errors"),
+                *("structural_error", "structural_error_at", "error_extremes", "function_start", "output_zero"),
+                *("starts_tried", "first_point_angle", "center_distance", "gear_gap", "contact_ratio", "input_speed"),
+                *("turn_time", "point_speed_max", "point_speed_min", "point_acceleration_max", *OUTPUT_SPEEDS),
+            ),
+            (
+                *("closure", "target", "pose-order", "gear-collision", "shaft-clearance", "shaft-seat"),
+                *("transmission-angle", *MESH_CHECKS, "backlash"),
+            ),
+            ("path", "function", "deviations", "poses", "structural_error", "search"),
+        ),
+        "gear": Outline(
+            (
+                "center_distance",
+                "contact_ratio",
+                *(name for name in OF_MESH if name not in _LISTS),
+                *named(MESHES),
+                "output_play",
+            ),
+            (*MESH_CHECKS, *TRAIN_CHECKS),
+        ),
+    }
 
     form: str = placed("spec.form")
+    input_length: float = placed("bar.input")
+    coupler_length: float = placed("bar.coupler")
+    follower_length: float = placed("bar.follower")
+    output_length: float = placed("bar.output")
+    frame_length: float = placed("bar.frame")
+    phase: float = placed("bar.phase")
+    assembly: int = placed("bar.assembly")
+
+    extreme_names = (*_OF_PATH, *_OF_FUNCTION)
+    at_once = 64
+
+    @classmethod
+    def find_together(cls, designs: Sequence[GearedFiveBar], names: Sequence[str]) -> None:
+        """Extremes of the motion, and how far paths extend."""
+        closed = [design for design in designs if _closes(design)]
+        for group in in_groups(closed, lambda design: (design.is_path, design.ratio, design.spec.assembly)):
+            sought(partial(_find_extremes, frozenset(names)), group)
+
+    point_speed_max: float | None = per_time("velocity_max", 1)
+    point_speed_min: float | None = per_time("velocity_min", 1)
+    point_acceleration_max: float | None = per_time("acceleration_max", 2)
+
+    ways = {
+        "transmission-angle": (
+            up("links.follower", "links.output"),
+            *(*_LINKS, *either("phase", step=1.0), *_FEWER, *_TEETH, *modules("gears.module")),
+        ),
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH, *modules("gears.module")),
+        "gear-collision": (up("links.frame"), *_FEWER, *_TEETH, *modules("gears.module")),
+        **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
+    }
 
     @property
     def is_path(self) -> bool:
@@ -295,18 +350,15 @@ class FiveBarParts(Meshed):
     @cached_property
     def start_path(self) -> PathFiveBar:
         """The five-bar of the file, path form; with a target it is the start."""
-        links, frame = self.spec.links, self._frame()
+        links = self.spec.links
+        lengths = (links.input or 0.0, links.coupler, links.follower, links.output, self._frame())
         with at_key("links"):
-            return PathFiveBar(
-                links.input or 0.0,
-                links.coupler,
-                links.follower,
-                links.output,
-                frame,
-                self.ratio,
-                math.radians(self.spec.phase),
-                self.spec.assembly,
-            )
+            return PathFiveBar(*lengths, self.ratio, math.radians(self.spec.phase), self.spec.assembly)
+
+    @property
+    def _least_angle(self) -> float:
+        """Limit of the transmission angle [rad]."""
+        return math.radians(self.spec.limits.transmission_angle)
 
     @cached_property
     def fit(self) -> Fit | None:
@@ -320,9 +372,7 @@ class FiveBarParts(Meshed):
             return self.timed_fit.fit
         points = np.array([complex(x, y) for x, y in target.points])
         with at_key("target.points"):
-            return fit_path(
-                self.start_path, self._start_offset, points, math.radians(self.spec.limits.transmission_angle)
-            )
+            return fit_path(self.start_path, self._start_offset, points, self._least_angle)
 
     @cached_property
     def timed_fit(self) -> TimedFit | None:
@@ -333,10 +383,9 @@ class FiveBarParts(Meshed):
         from gearlink.core.machines.five_bar.fit import fit_timed
 
         points = np.array([complex(x, y) for x, y in target.points])
-        least = math.radians(self.spec.limits.transmission_angle)
+        angles = np.radians(target.input_angles)
         with at_key("target.points"):
-            angles = np.radians(target.input_angles)
-            return fit_timed(self.start_path, self._start_offset, points, angles, least, target.budget)
+            return fit_timed(self.start_path, self._start_offset, points, angles, self._least_angle, target.budget)
 
     @property
     def _start_offset(self) -> complex:
@@ -370,8 +419,8 @@ class FiveBarParts(Meshed):
 
         places = np.array([complex(x, y) for x, y, _ in target.poses])
         angles = np.radians([angle for _, _, angle in target.poses])
-        least = math.radians(self.spec.limits.transmission_angle)
-        task = Task(places, angles, self.start_path, frozenset(target.keep), target.frame == "free", least)
+        free = target.frame == "free"
+        task = Task(places, angles, self.start_path, frozenset(target.keep), free, self._least_angle)
         with at_key("target.poses"):
             return guide(task)
 
@@ -426,19 +475,13 @@ class FiveBarParts(Meshed):
         found = self.guidance
         if found is None:
             return
-        one, ordered = len(set(found.assemblies)) == 1, found.in_order
         what, fix = "the poses follow each other in one assembly of the links", ""
-        if not ordered:
-            what, fix = (
-                "the input angles neither rise nor fall in the order of the poses",
-                "reorder target.poses, or list fewer links in target.keep",
-            )
-        elif not one:
-            what, fix = (
-                "two poses need different assemblies of the links",
-                "change a pose, or list fewer links in target.keep",
-            )
-        yield POSE_ORDER.check("pass" if one and ordered else "fail", what, fix=fix)
+        if not found.in_order:
+            what, fix = "the input angles neither rise nor fall in the order of the poses", "reorder target.poses"
+        elif len(set(found.assemblies)) > 1:
+            what, fix = "two poses need different assemblies of the links", "change a pose"
+        fix = f"{fix}, or list fewer links in target.keep" if fix else ""
+        yield POSE_ORDER.check("fail" if fix else "pass", what, fix=fix)
 
     @cached_property
     def positions(self) -> list[tuple[float, float]] | None:
@@ -470,9 +513,8 @@ class FiveBarParts(Meshed):
             start = math.radians(self.spec.range.start) if self.spec.range is not None else 0.0
             with at_key("links"):
                 return FunctionFit(self.start_function, start, structural_error(self.start_function, start, wanted), ())
-        least = math.radians(self.spec.limits.transmission_angle)
         with at_key("target.function"):
-            return fit_function(self.start_function, 0.0, wanted, least, target.budget)
+            return fit_function(self.start_function, 0.0, wanted, self._least_angle, target.budget)
 
     @cached_property
     def start_function(self) -> FunctionFiveBar:
@@ -492,7 +534,7 @@ class FiveBarParts(Meshed):
             with at_key("target.positions"):
                 from gearlink.core.machines.five_bar.function_fit import five_bar_for_positions
 
-                bar = five_bar_for_positions(bar, positions, math.radians(self.spec.limits.transmission_angle))
+                bar = five_bar_for_positions(bar, positions, self._least_angle)
         with at_key("range" if self.spec.range is not None else "links"):
             bar.closure(*self.input_range)
         return bar
@@ -514,106 +556,6 @@ class FiveBarParts(Meshed):
         """The five-bar of either form."""
         return self.path_bar if self.is_path else self.function_bar
 
-
-_SHOWN_TURNS = 100
-_POSE_FIT = 1e-6
-"""[mm, deg]"""
-_LISTS = ("center_distance", "contact_ratio")
-"""One for each mesh, whatever their number."""
-_POSITION_TOLERANCE = math.degrees(1e-9)
-
-
-_FEW_TURNS = 3
-_FIT, _TOO_LONG = 100.0, 1e6
-"""Trials of designs without a target that one fit takes as long as, and how many are tried with one."""
-_TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
-_FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
-_LINKS = (
-    up("links.coupler", "links.follower"),
-    *either("links.coupler", "links.follower", "links.output", "links.input", "links.frame"),
-)
-
-
-_OF_PATH = names("velocity", "acceleration")
-_OF_FUNCTION = names("speed_ratio", "acceleration_ratio")
-
-
-class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarParts):
-    """A five-bar whose gears take away one of its two freedoms."""
-
-    kind = "geared-five-bar"
-    spec: GearedFiveBarSpec
-    keys = {
-        "analyze": (
-            *("structural_error", "position_errors", "path_deviation_max", "path_deviation_rms"),
-            *(("min_transmission_angle", ">limits.transmission_angle"), "path_width", "path_height", "point_speed_max"),
-            *("point_acceleration_max", "input_length", "coupler_length", "follower_length", "output_length"),
-            *("frame_length", "phase", "speed_ratio_max", "speed_ratio_min"),
-        )
-    }
-    outlines = {
-        "analyze": Outline(
-            (
-                *("form", "five_bar_ratio", "coupler_ratio", "period_turns", "input_length", "coupler_length"),
-                *("follower_length", "output_length", "frame_length", "phase", "assembly", "point_along"),
-                *("point_across", "span_min", "span_min_at", "span_max", "span_max_at", "min_transmission_angle"),
-                *("min_transmission_angle_at", *_OF_PATH, *_OF_FUNCTION, "path_width", "path_height", "phase_step"),
-                *("path_deviation_rms", "path_deviation_max", "pose_error_max", "pose_error_rms"),
-                *("pose_angle_error_max", "body_angle", "frame_place", "frame_direction", "position_errors"),
-                *("structural_error", "structural_error_at", "error_extremes", "function_start", "output_zero"),
-                *("starts_tried", "first_point_angle", "center_distance", "gear_gap", "contact_ratio", "input_speed"),
-                *("turn_time", "point_speed_max", "point_speed_min", "point_acceleration_max", *OUTPUT_SPEEDS),
-            ),
-            (
-                *("closure", "target", "pose-order", "gear-collision", "shaft-clearance", "shaft-seat"),
-                *("transmission-angle", *MESH_CHECKS, "backlash"),
-            ),
-            ("path", "function", "deviations", "poses", "structural_error", "search"),
-        ),
-        "gear": Outline(
-            (
-                "center_distance",
-                "contact_ratio",
-                *(name for name in OF_MESH if name not in _LISTS),
-                *named(MESHES),
-                "output_play",
-            ),
-            (*MESH_CHECKS, *TRAIN_CHECKS),
-        ),
-    }
-
-    input_length: float = placed("bar.input")
-    coupler_length: float = placed("bar.coupler")
-    follower_length: float = placed("bar.follower")
-    output_length: float = placed("bar.output")
-    frame_length: float = placed("bar.frame")
-    phase: float = placed("bar.phase")
-    assembly: int = placed("bar.assembly")
-
-    extreme_names = (*_OF_PATH, *_OF_FUNCTION)
-    at_once = 64
-
-    @classmethod
-    def find_together(cls, designs: Sequence[GearedFiveBar], names: Sequence[str]) -> None:
-        """Extremes of the motion, and how far paths extend."""
-        closed = [design for design in designs if _closes(design)]
-        for group in in_groups(closed, lambda design: (design.is_path, design.ratio, design.spec.assembly)):
-            sought(partial(_find_extremes, frozenset(names)), group)
-
-    point_speed_max: float | None = per_time("velocity_max", 1)
-    point_speed_min: float | None = per_time("velocity_min", 1)
-    point_acceleration_max: float | None = per_time("acceleration_max", 2)
-
-    ways = {
-        "transmission-angle": (
-            up("links.follower", "links.output"),
-            *(*_LINKS, *either("phase", step=1.0), *_FEWER, *_TEETH, *modules("gears.module")),
-        ),
-        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH, *modules("gears.module")),
-        "gear-collision": (up("links.frame"), *_FEWER, *_TEETH, *modules("gears.module")),
-        **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
-    }
-
     @property
     def cost(self) -> float:
         """A path of few turns takes a millisecond; links found for points or positions a tenth of a second each time,
@@ -631,14 +573,11 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
         return target is not None and not (target.function is not None and target.function.links == "given")
 
     @property
-    def point_along(self) -> float | None:
-        """u of the coupler point [mm]."""
-        return self.offset.real if self.is_path else None
+    def _point(self) -> complex | None:
+        return self.offset if self.is_path else None
 
-    @property
-    def point_across(self) -> float | None:
-        """v of the coupler point [mm]."""
-        return self.offset.imag if self.is_path else None
+    point_along: float | None = placed("_point.real")
+    point_across: float | None = placed("_point.imag")
 
     @cached_property
     def motion_extremes(self) -> dict[str, float]:
@@ -674,7 +613,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
 
     @cached_property
     def _extent(self) -> tuple[Extreme, Extreme, Extreme, Extreme]:
-        return extent(self.path_bar, self.offset)
+        return spread(self.path_bar, self.offset)
 
     @property
     def path_width(self) -> float | None:
@@ -703,7 +642,9 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
     @cached_property
     def layout(self) -> Layout:
         """The bodies in the plane of the gears."""
-        return layout_of_bodies(self)
+        spec, (gears, reaches) = self.spec, _path(self) if self.is_path else _function(self)
+        shafts = shafts_at("AE" if spec.gears.idler is None else "AEO", spec.shafts)
+        return Layout(gears, shafts, reaches, least_shaft(spec.limits, spec.gears.module))
 
     gear_gap: float | None = placed("layout.gear_gap")
     structural_error: float | None = placed("function_fit.error.greatest")
@@ -750,20 +691,27 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, FiveBarPar
     extra_tables = ("drawing", "factors", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
-        """The target met with other gears side by side."""
-        return five_bar(self)
+        """The target met with gears in the ratios 1, 2 and 1/2 in both assemblies; each row is a search of its own."""
+        if self.spec.target is None:
+            raise nothing_sought("give target: points, positions or a function")
+        one, *_, other = self.spec.gears.gear_names()
+        own = getattr(self.spec.gears, one), getattr(self.spec.gears, other)
+        keys = {f"gears.{name}": (f"{name}_teeth", "1") for name in (one, other)} | {"assembly": ("assembly", "1")}
+        teeth = list(dict.fromkeys((own, *((min(own) * p, min(own) * q) for p, q in _RATIOS))))
+        # A function's search takes seconds: it keeps to the file's assembly.
+        sides = (1, -1) if self.is_path else (self.spec.assembly,)
+        rows = [(*pair, side) for pair in teeth for side in sides]
+        return table(self, Sought("analyze", keys, rows, (*_CANDIDATES_LINKS, *_QUALITY)))
 
     def table_names_shown(self) -> tuple[str, ...]:
         """The tables of this form."""
-        if not self.is_path:
-            judged = ("structural_error",) if self.wanted is not None else ()
-            return ("function", *judged, *(("search",) if self.searches else ()))
-        return (
-            "path",
-            *(("deviations",) if self.fit is not None else ()),
-            *(("poses",) if self.spec.target is not None and self.spec.target.poses is not None else ()),
-            *(("search",) if self.searches else ()),
-        )
+        target = self.spec.target
+        if self.is_path:
+            poses = target is not None and target.poses is not None
+            shown = {"path": True, "deviations": self.fit is not None, "poses": poses}
+        else:
+            shown = {"function": True, "structural_error": self.wanted is not None}
+        return tuple(name for name, there in {**shown, "search": self.searches}.items() if there)
 
     def outline(self, command: str) -> Outline:
         """Each form has its own tables."""

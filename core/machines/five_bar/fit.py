@@ -163,21 +163,15 @@ def descended(problem: PathProblem, x: Reals, phi: Reals, steps: int) -> tuple[R
     """
     limit, damping = np.full((len(x), 2), problem.cosine), np.full(len(x), DAMPING)
     z, targets = np.concatenate((x, phi), axis=1), phi.shape[1]
+    state, step = partial(_state, problem), partial(_step, problem)
     for first in range(0, steps, _MATCHED_EVERY):
         if first:
             x = z[:, :UNKNOWNS]
             z = np.concatenate((x, matched(problem, x, z[:, UNKNOWNS:])), axis=1)
             limit, damping = _drawn_in(problem, x, limit), np.minimum(damping, DAMPING)
         few = min(_MATCHED_EVERY, steps - first)
-        z, (cost, *_), damping, taken = descend(
-            partial(_state, problem),
-            partial(_step, problem),
-            z,
-            few,
-            given=(limit,),
-            damping=damping,
-            least=_LEAST_DAMPING,
-        )
+        found = descend(state, step, z, few, given=(limit,), damping=damping, least=_LEAST_DAMPING)
+        z, (cost, *_), damping, taken = found
         if taken < few:
             break
     return z[:, :UNKNOWNS], z[:, UNKNOWNS:], cost / targets
@@ -327,10 +321,8 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
         thesis 2.2.1, figure 2-1; own derivation
     """
     if targets.size < 3:
-        raise NoSolution(f"{amount(targets.size, 'point')}", fix="give at least three for a path")
-    scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
-    if not scale > 0.0:
-        raise NoSolution("all points are the same: a path needs at least two different ones")
+        raise NoSolution(amount(targets.size, "point"), fix="give at least three for a path")
+    scale = _widest(targets)
     given = [judge(start, offset, targets)] if closes(start, 0.0) else []
     with np.errstate(all="ignore"):  # rows that open are NaN and drop out
         rows = _search(start, offset, targets / scale, transmission_angle, scale)
@@ -338,11 +330,20 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     closing = (one for row in known if closes((one := row_as_bar(start, row, scale))[0], transmission_angle))
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
     if not given and not found:
-        raise NoSolution(
-            ("none of the starts closes over a whole revolution with the required transmission angle"),
-            fix=("start from links that do (longer coupler and follower), or reduce limits.transmission_angle"),
-        )
+        raise NoSolution(_NONE_CLOSES, fix=_LONGER)
     return min(found + given, key=lambda fit: fit.rms)
+
+
+_NONE_CLOSES = "none of the starts closes over a whole revolution with the required transmission angle"
+_LONGER = "start from links that do (longer coupler and follower), or reduce limits.transmission_angle"
+
+
+def _widest(targets: Points) -> float:
+    """Distance of the two points farthest apart."""
+    scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
+    if not scale > 0.0:
+        raise NoSolution("all points are the same: a path needs at least two different ones")
+    return scale
 
 
 def closes(bar: PathFiveBar, least: float) -> bool:
@@ -370,20 +371,16 @@ def _search(start: PathFiveBar, offset: complex, targets: Points, least: float, 
 
 def _finished(problem: PathProblem, x: Reals, least: float) -> Reals:
     """The last stage, over all targets, and more steps for rows that still miss the transmission angle."""
-    x, phi, cost = descended(_aimed(problem, least + _MARGIN), x, matched(problem, x), _STEPS)
+    x, phi, cost = descended(replace(problem, cosine=math.cos(least + _MARGIN)), x, matched(problem, x), _STEPS)
     spans = _between(_SPANS_TO_FINISH * problem.family.waves, _FEWEST_SPANS, _MOST_SPANS_TO_FINISH)
     problem = replace(problem, family=replace(problem.family, span_count=spans))
     for margin in _MARGINS:
         missing = ~(np.max(problem.family.cosines(x)[0], axis=1) <= math.cos(least))
         if not np.any(missing):
             break
-        more = descended(_aimed(problem, least + margin), x[missing], phi[missing], _MORE_STEPS)
-        x[missing], phi[missing], cost[missing] = more
+        aimed = replace(problem, cosine=math.cos(least + margin))
+        x[missing], phi[missing], cost[missing] = descended(aimed, x[missing], phi[missing], _MORE_STEPS)
     return np.asarray(x[np.argsort(cost, kind="stable")])
-
-
-def _aimed(problem: PathProblem, angle: float) -> PathProblem:
-    return replace(problem, cosine=math.cos(angle))
 
 
 def _refined(problem: PathProblem, rows: int) -> PathProblem:
@@ -460,9 +457,7 @@ def fit_timed(
         Each round: up to 600 scattered starts that close, the 48 whose paths come nearest tried at 48 places of the
         first point, 120 steps of Levenberg and Marquardt; the transmission angle is a penalty.
     """
-    scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
-    if not scale > 0.0:
-        raise NoSolution("all points are the same: a path needs at least two different ones")
+    scale = _widest(targets)
     begun, best, rounds, tried = time.monotonic(), None, [], 0
     for number in range(1 if seconds is None else 1_000_000):
         with np.errstate(all="ignore"):  # rows that open are NaN and drop out
@@ -474,10 +469,7 @@ def fit_timed(
         if seconds is not None and time.monotonic() - begun >= seconds:
             break
     if best is None:
-        raise NoSolution(
-            ("none of the starts closes over a whole revolution with the required transmission angle"),
-            fix=("start from links that do (longer coupler and follower), or reduce limits.transmission_angle"),
-        )
+        raise NoSolution(_NONE_CLOSES, fix=_LONGER)
     return TimedFit(best.fit, best.first_angle, tuple(rounds))
 
 
@@ -504,8 +496,7 @@ def _searched(
     if not len(x):
         return count, np.empty((0, 8))
     z = _placed(family, x, targets, angles)
-    low, high = bounds(first)
-    return count, _descended(family, z, targets, angles, math.cos(least + _TIMED_MARGIN), (low, high))
+    return count, _descended(family, z, targets, angles, math.cos(least + _TIMED_MARGIN), bounds(first))
 
 
 def _placed(family: FiveBarFamily, x: Reals, targets: Points, angles: Reals) -> Reals:

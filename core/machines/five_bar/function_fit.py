@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
-from typing import TypeAlias
 
 import numpy as np
 
@@ -91,7 +91,7 @@ def fit_function(
             break
     if best is None:
         raise NoSolution(
-            ("no five-bar was found that generates this function with the required transmission angle"),
+            "no five-bar was found that generates this function with the required transmission angle",
             fix="reduce limits.transmission_angle, input_swing or output_swing, or use other gears",
         )
     return replace(best, rounds=tuple(rounds))
@@ -187,27 +187,21 @@ def _descended(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) ->
     return x, cost
 
 
-def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
-    """(|CD| - c)/e at the nodes, and the excess of |cos mu| over its limit, for every row."""
-    return _of_directions(x, [_direction(x, which, phi, psi, ratio) for which in range(3)], cosine)
-
-
-def _direction(x: Reals, which: int, phi: Reals, psi: Reals, ratio: float) -> Points:
+def _directions(x: Reals, phi: Reals, psi: Reals, ratio: float) -> tuple[Points, Points, Points]:
     """Directions of input link, coupler and output link at the nodes."""
-    if which == 2:
-        return np.asarray(np.exp(1j * (x[:, 6:7] + psi)))
     turned = phi + x[:, 5:6]
-    return np.asarray(np.exp(1j * (x[:, 4:5] + ratio * turned) if which else 1j * turned))
+    return np.exp(1j * turned), np.exp(1j * (x[:, 4:5] + ratio * turned)), np.exp(1j * (x[:, 6:7] + psi))
 
 
 def _lengths(x: Reals) -> tuple[Reals, ...]:
     return tuple(np.exp(np.clip(x[:, i], -_FARTHEST, _FARTHEST))[:, None] for i in range(4))
 
 
-def _of_directions(x: Reals, directions: Sequence[Points], cosine: float) -> Reals:
-    b, c, e, d = _lengths(x)
-    joint = directions[0] + b * directions[1]
-    gap = joint - d - e * directions[2]
+def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
+    """(|CD| - c)/e at the nodes, and the excess of |cos mu| over its limit, for every row."""
+    (b, c, e, d), (crank, planet, hand) = _lengths(x), _directions(x, phi, psi, ratio)
+    joint = crank + b * planet
+    gap = joint - d - e * hand
     mu = (c * c + e * e - np.abs(d - joint) ** 2) / (2.0 * c * e)
     return np.concatenate(((np.abs(gap) - c) / e, _WEIGHT * np.maximum(0.0, np.abs(mu) - cosine)), axis=1)
 
@@ -217,8 +211,7 @@ def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine
 
     g = e^(i phi) + b e^(i t2) - d - e e^(i psi):   d|g| = Re(g* dg)/|g|,   d cos mu = Re(w* dw)/(c e), w = d - B
     """
-    b, c, e, d = _lengths(x)
-    crank, planet, hand = (_direction(x, which, phi, psi, ratio) for which in range(3))
+    (b, c, e, d), (crank, planet, hand) = _lengths(x), _directions(x, phi, psi, ratio)
     planet, hand = b * planet, e * hand
     far = d - crank - planet
     gap = -far - hand
@@ -237,13 +230,12 @@ def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine
     return found
 
 
-_LEVELLING_GRID = 121
 WIDEST = math.log(20.0)
-"""Logarithm of the maximum ratio of another link to the input link, or of this to the other."""
+"""Logarithm of the maximum ratio of another link to the input link, or of this to the other; beyond, a drawing would
+not show both."""
 # Shares of the promised gain: below the first a step is corrected, above the others trust grows or stays.
 _CORRECTED, _TRUSTED, _KEPT = 0.75, 0.5, 0.1
 _LEAST_GAIN, _LEAST_TRUST = 1e-5, 1e-10
-Slopes: TypeAlias = tuple[Reals, Reals]
 
 
 class Levelling:
@@ -270,9 +262,8 @@ class Levelling:
             start : float [rad] - phi0
             limit : float - the maximum |cos mu| that is allowed, mu the transmission angle
         """
-        s = 0.5 * (
-            1.0 - np.cos(math.pi * np.linspace(0.0, 1.0, _LEVELLING_GRID))
-        )  # as dense at the ends as the extremes are
+        # as dense at the ends as the extremes are
+        s = 0.5 * (1.0 - np.cos(math.pi * np.linspace(0.0, 1.0, _GRID)))
         self._first, self._limit = bar, limit
         self._target, self._swing = wanted.output(s), wanted.input_swing * s
         lengths = (bar.coupler, bar.follower, bar.output, bar.frame)
@@ -344,9 +335,8 @@ class Levelling:
         if not (np.all(np.isfinite(outward)) and np.all(np.isfinite(turns))):
             return None
         ones, trust = np.ones((miss.size, 1)), self._trust
-        size = float(
-            np.abs(miss).max()
-        )  # psi0 and the error in this: the programs' tolerance is that of numbers about 1
+        # psi0 and the error in this: the programs' tolerance is that of numbers about 1
+        size = float(np.abs(miss).max())
         rows = [np.hstack((side / size * outward, -side * ones, -ones)) for side in (1.0, -1.0)]
         edges = [-miss / size, miss / size]
         over = max(self._limit, float(np.abs(cosine).max()) - 0.1 * trust)
@@ -388,7 +378,7 @@ def state(bar: FunctionFiveBar, start: float, swing: Reals, target: Reals) -> tu
     return miss - 0.5 * (miss.max() + miss.min()), cosine
 
 
-def slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> Slopes:
+def slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> tuple[Reals, Reals]:
     """Derivatives of the output angle and of cos mu by ln b, ln c, ln e, ln d, t20 and phi0, at the places.
 
     |g| = c,  g = a e^(i phi) + b e^(i t2) - d - e e^(i psi):   dpsi = (Re(g* dg) - c dc)/Re(g* i e e^(i psi))
@@ -417,9 +407,7 @@ def slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> Slopes:
 MOST_POSITIONS = 5
 _POSITION_STARTS = 1500
 _POSITION_STEPS = 80
-# Lengths are sought from 1/20 to 20 times the input link: beyond, a drawing would not show both.
-_WIDEST = math.log(20.0)
-_FARTHEST_LINK = 2.0 * _WIDEST
+_FARTHEST_LINK = 2.0 * WIDEST
 _SCATTER_OF_LINKS = 1.5
 # A five-bar that comes nearer to its dead centre than this is of no use to anybody [rad].
 _LEAST_ANGLE = math.radians(0.5)
@@ -456,10 +444,8 @@ def five_bar_for_positions(
     if not found:
         raise NoSolution(
             f"no five-bar was found that meets the {len(positions)} positions in one continuous motion",
-            fix=(
-                "omit one, bring them nearer to each other, or start from other links (coupler, "
-                "follower, output, frame, phase)"
-            ),
+            fix="omit one, bring them nearer to each other, or start from other links (coupler, follower, output, "
+            "frame, phase)",
         )
     return max(found, key=lambda bar: _quality(bar, positions, transmission_angle))
 
@@ -483,28 +469,18 @@ def _starts(bar: FunctionFiveBar) -> Reals:
     """Rows of the unknowns ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20: the start, and scattered ones about it."""
     first = [math.log(length / bar.input) for length in (bar.coupler, bar.follower, bar.output, bar.frame)]
     share = halton(1, _POSITION_STARTS, 5)
-    scattered = (
-        np.array(first) + _SCATTER_OF_LINKS * (2.0 * share[:, :4] - 1.0),
-        bar.phase + 2.0 * math.pi * share[:, 4:],
-    )
-    return np.concatenate(([[*first, bar.phase]], np.hstack(scattered)))
+    lengths = np.array(first) + _SCATTER_OF_LINKS * (2.0 * share[:, :4] - 1.0)
+    scattered = np.hstack((lengths, bar.phase + 2.0 * math.pi * share[:, 4:]))
+    return np.concatenate(([[*first, bar.phase]], scattered))
 
 
 def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFiveBar]:
     """Five-bars that satisfy the equations of the positions, not yet known to move between them."""
     phi, psi = (np.array(column) for column in zip(*positions, strict=True))
-    x = _starts(start)
-    ratio = start.coupler_ratio
-    x, (cost, *_), _, _ = descend(
-        lambda x: _position_state(x, phi, psi, ratio),
-        _position_step,
-        x,
-        _POSITION_STEPS,
-        slopes=_square,
-        damping=1.0,
-        least=0.0,
-    )
-    close = (cost < _CLOSE) & np.all(np.abs(x[:, :4]) < _WIDEST, axis=1)
+    state = partial(_position_state, phi=phi, psi=psi, ratio=start.coupler_ratio)
+    found = descend(state, _position_step, _starts(start), _POSITION_STEPS, slopes=_square, damping=1.0, least=0.0)
+    x, (cost, *_), _, _ = found
+    close = (cost < _CLOSE) & np.all(np.abs(x[:, :4]) < WIDEST, axis=1)
     seen: set[tuple[float, ...]] = set()
     for row in x[close]:
         row[4] = math.remainder(float(row[4]), 2.0 * math.pi)

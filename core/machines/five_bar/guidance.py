@@ -14,7 +14,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -245,7 +245,7 @@ def _closed(task: Task, body: complex, arm: float, phi: Reals, length: float, ph
     except NoSolution:
         return None
     follower = abs(complex(seen[0]) - joint)
-    return _made(task, body, joint, arm, follower, length, phase, 0j, 0.0)
+    return _made(task, body, joint, arm, follower, length, phase)
 
 
 def _made(
@@ -256,8 +256,8 @@ def _made(
     follower: float,
     output: float,
     phase: float,
-    place: complex,
-    direction: float,
+    place: complex = 0j,
+    direction: float = 0.0,
 ) -> Guidance | None:
     start, body, joint = task.start, complex(body), complex(joint)
     coupler, arm, follower, output, phase = abs(joint - body), *(float(each) for each in (arm, follower, output, phase))
@@ -265,10 +265,7 @@ def _made(
         return None
     bar = PathFiveBar(arm, coupler, follower, output, start.frame, start.ratio, math.remainder(phase, TURN), 1)
     found = Guidance(task, bar, body, joint, place, direction)
-    if sum(found.assemblies) < 0:
-        bar = PathFiveBar(arm, coupler, follower, output, start.frame, start.ratio, bar.phase, -1)
-        found = Guidance(task, bar, body, joint, place, direction)
-    return found
+    return replace(found, bar=replace(bar, assembly=-1)) if sum(found.assemblies) < 0 else found
 
 
 # Any number of poses, by least squares

@@ -39,10 +39,8 @@ def errors(design: GearedFiveBar, mechanism: Mechanism) -> Movable:
     from gearlink.core.studies.movable import Movable
 
     bar = design.path_bar if design.is_path else design.function_bar
-    sizes = longer(
-        mechanism,
-        {f"links.{name}": (name, getattr(bar, name)) for name in _LINKS} | {"links.frame": (FRAME, bar.frame)},
-    )
+    ends = {f"links.{name}": (name, getattr(bar, name)) for name in _LINKS}
+    sizes = longer(mechanism, ends | {"links.frame": (FRAME, bar.frame)})
     phased = "output" if design.is_path else "coupler"  # turned against its gear
     sizes["phase"] = (Shift(phased, ("D",) if design.is_path else ("C",), _DEGREE, turned=True),)
     gears = _gears(design)
@@ -84,8 +82,7 @@ def motion(design: GearedFiveBar) -> Motion:
     bar.closure()
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
-        links, joints = _path(design, bar, phi, order)
-        return Mechanism(links, joints, "input")
+        return _path(design, bar, phi, order)
 
     outputs = tuple(Output(f"Point M, {name}", coordinate("coupler", "M", along)) for name, along in _AXES)
     given = Input(end=bar.period, turns=bar.period_turns)
@@ -103,8 +100,7 @@ def function_motion(design: GearedFiveBar, bar: FunctionFiveBar, start: float, e
     """
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
-        links, joints = _function(design, bar, phi, order)
-        return Mechanism(links, joints, "input")
+        return _function(design, bar, phi, order)
 
     outputs = (Output("Output link ED", turned("output")),)
     return Motion(make, Input(start=start, end=end, turns=None), outputs, transmission=least_transmission("D"))
@@ -119,7 +115,7 @@ def _rolling(design: GearedFiveBar, name: str = "") -> tuple[float, float, float
     return one, other, math.tan(pair.working_pressure_angle)
 
 
-def _path(design: GearedFiveBar, bar: PathFiveBar, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
+def _path(design: GearedFiveBar, bar: PathFiveBar, phi: Reals, order: int) -> Mechanism:
     first = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": bar.input})
     last = Link(
         fixed(bar.frame, phi, order=order),
@@ -141,7 +137,7 @@ def _path(design: GearedFiveBar, bar: PathFiveBar, phi: Reals, order: int) -> tu
         Pin("D", "output", "follower", d.value),
         Pin("E", FRAME, "output", last.origin.value),
     ]
-    return links, pins + _path_gears(design, links, phi, order)
+    return Mechanism(links, pins + _path_gears(design, links, phi, order), "input")
 
 
 def _path_gears(design: GearedFiveBar, links: dict[str, Link], phi: Reals, order: int) -> list[Connection]:
@@ -167,9 +163,7 @@ def _path_gears(design: GearedFiveBar, links: dict[str, Link], phi: Reals, order
     ]
 
 
-def _function(
-    design: GearedFiveBar, bar: FunctionFiveBar, phi: Reals, order: int
-) -> tuple[dict[str, Link], list[Connection]]:
+def _function(design: GearedFiveBar, bar: FunctionFiveBar, phi: Reals, order: int) -> Mechanism:
     gears = design.spec.gears
     first = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": bar.input})
     coupler = Link(
@@ -184,7 +178,7 @@ def _function(
         "output": Link(pivot, t4, {"E": 0.0, "D": bar.output}),
     }
     r2, r5, tangent = _rolling(design)
-    return links, [
+    joints: list[Connection] = [
         Pin("A", FRAME, "input", first.origin.value),
         Pin("B", "input", "coupler", coupler.origin.value),
         Pin("C", "coupler", "follower", c.value),
@@ -193,3 +187,4 @@ def _function(
         Mesh("mesh_25", FRAME, "coupler", first.origin.value, first.unit, r5, r2, tangent,
              gears.ring is not None, "input"),
     ]  # fmt: skip
+    return Mechanism(links, joints, "input")

@@ -21,8 +21,7 @@ _AT_ONCE = 1_000_000
 
 def rates(bar: PathFiveBar, phi: Reals, offset: complex) -> tuple[Points, Points]:
     """Velocity [mm/rad] and acceleration [mm/rad^2] of the coupler point; closure is not checked."""
-    start, end, u2, u3 = _position(bar, phi)
-    return _rates(bar, start, end, u2, u3, offset)
+    return _rates(bar, *_position(bar, phi), offset)
 
 
 def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
@@ -98,18 +97,13 @@ def _way(bar: PathFiveBar, phi: Reals) -> Points:
     return end - bar.input * unit_vector(phi)
 
 
-def extent(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
+def spread(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
     """Minimum and maximum x, minimum and maximum y of the path, refined, with their input angles.
 
-    Raises
-        NoSolution - where the five-bar opens
+    Parameters
+        bar : PathFiveBar - it closes; of one whose numbers are columns the extremes of each are found
+        offset : complex [mm] - u + i v
     """
-    bar.closure()
-    return spread(bar, offset)
-
-
-def spread(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
-    """The same of a five-bar that closes; of one whose numbers are columns the extremes of each."""
     place = kept_last(lambda phi: points(bar, phi, offset))
     x, y = (lambda phi: place(phi).real), (lambda phi: place(phi).imag)
     left, right, low, high = extremes_over(

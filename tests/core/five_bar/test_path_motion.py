@@ -25,7 +25,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.fit import fit_path, judge
 from gearlink.core.machines.five_bar.function_fit import five_bar_for_positions
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
-from gearlink.core.machines.five_bar.path import coupler_angles, distances, extent, points, rates
+from gearlink.core.machines.five_bar.path import coupler_angles, distances, points, rates, spread
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.numerics.quasi_random import halton
@@ -149,7 +149,7 @@ def test_mirror_image():
 
 def test_extent_and_distances():
     offset = 60.0 + 0j
-    left, right, low, high = extent(BAR, offset)
+    left, right, low, high = spread(BAR, offset)
     path = points(BAR, np.linspace(0.0, BAR.period, 100001), offset)
     assert (left.value, right.value) == pytest.approx((path.real.min(), path.real.max()), abs=1e-6)
     assert (low.value, high.value) == pytest.approx((path.imag.min(), path.imag.max()), abs=1e-6)
