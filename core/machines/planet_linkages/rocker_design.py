@@ -13,7 +13,6 @@ from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.machines.planet_linkages.bodies import rocker_layout
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root
@@ -25,7 +24,16 @@ from gearlink.core.parts.linkages.checks import check_linkage, of_gears, target_
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
+from gearlink.core.studies.clearance import (
+    SHAFT_WAYS,
+    Gear,
+    Layout,
+    WithShafts,
+    constant,
+    coupler_joint,
+    least_shaft,
+    shafts_at,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_spec import GearedRockerSpec
@@ -123,16 +131,13 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
     def excess(crank: float) -> float:
         return output_swing(PlanetLinkage(FourBar(crank, coupler, rocker, frame, assembly), ratio, "rocker")) - swing
 
-    low, below_low = 0.0, -swing
-    greatest = -swing
+    low, greatest = 0.0, -swing
     for i in range(1, _STEPS + 1):
         crank = limit * i / _STEPS
         value = excess(crank)
         if value >= 0.0:
-            start = low if low > 0.0 else _least_crank(excess, limit, swing)
-            return bracketed_root(excess, start, crank)
-        low, below_low = crank, value
-        greatest = max(greatest, below_low)
+            return bracketed_root(excess, low or _least_crank(excess, limit, swing), crank)
+        low, greatest = crank, max(greatest, value)
     reach = math.degrees(greatest + swing)
     raise NoSolution(
         f"swing: {unlike(math.degrees(swing), reach)} deg (limit <= {math.floor(reach * 10.0) / 10.0:g} deg "
@@ -263,11 +268,9 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
         links, target = self.spec.links, self.spec.target
         if links.crank is not None or target is None:
             return links.crank or 0.0
-        swing = math.radians(target.swing)
+        fixed = links.coupler, self.rocker_length, links.frame, self.spec.assembly
         with at_key("target.swing"):
-            return crank_for_swing(
-                links.coupler, self.rocker_length, links.frame, self.spec.assembly, self.gear_ratio, swing
-            )
+            return crank_for_swing(*fixed, self.gear_ratio, math.radians(target.swing))
 
     @cached_property
     def linkage(self) -> FourBar:
@@ -335,8 +338,14 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, WithShafts, Meshed):
 
     @cached_property
     def layout(self) -> Layout:
-        """The bodies in the plane of the gears."""
-        return rocker_layout(self)
+        """Coupler gear on C, output gear on D."""
+        links, spec, (coupler, output) = self.linkage, self.spec, self.mesh.tip_radius
+        gears = (
+            Gear("the coupler gear", "C", coupler, mates="D"),
+            Gear("the output gear", "D", output, root=self.mesh.root_radius[1]),
+        )
+        reaches = {"AC": coupler_joint(links), "AD": constant(links.frame), "CD": constant(links.rocker)}
+        return Layout(gears, shafts_at("AD", spec.shafts), reaches, least_shaft(spec.limits, spec.gears.module))
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Rocker and output over a revolution of the crank; the output angle is 0 at crank angle 0."""

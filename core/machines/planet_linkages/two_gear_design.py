@@ -14,7 +14,6 @@ from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Shown, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
-from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
@@ -26,7 +25,17 @@ from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep, OutputRates, Turning
-from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, WithShafts
+from gearlink.core.studies.clearance import (
+    SHAFT_WAYS,
+    Gear,
+    Layout,
+    WithShafts,
+    constant,
+    crank_pin,
+    least_shaft,
+    ring_gear,
+    shafts_at,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.two_gear_family import Family
@@ -299,8 +308,16 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, WithShafts, Meshed):
 
     @cached_property
     def layout(self) -> Layout:
-        """The bodies in the plane of the gears."""
-        return two_gear_layout(self)
+        """Planet on B, sun or ring gear on A."""
+        links, spec, mesh = self.linkage, self.spec, self.mesh
+        output = (
+            ring_gear("A", mesh, rim=self.outer_rim())
+            if self.internal
+            else Gear("the sun", "A", mesh.tip_radius[1], root=mesh.root_radius[1])
+        )
+        gears = Gear("the planet", "B", mesh.tip_radius[0], mates="A"), output
+        reaches = {"AB": constant(links.crank), "AD": constant(links.frame), "BD": crank_pin(links.crank, links.frame)}
+        return Layout(gears, shafts_at("AD", spec.shafts), reaches, least_shaft(spec.limits, spec.gears.module))
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, coupler speed and transmission angle over a revolution of the crank."""

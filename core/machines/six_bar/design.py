@@ -268,10 +268,8 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     def _transmission(self) -> Extreme:
         from gearlink.core.numerics.extremes import minimum_over
 
-        course = self.course
-        return minimum_over(
-            lambda phi: self.bar.transmission(course.angles(phi)), course.start, course.end, samples=course.samples
-        )
+        course, of = self.course, self.bar.transmission
+        return minimum_over(lambda phi: of(course.angles(phi)), course.start, course.end, samples=course.samples)
 
     min_transmission_angle: float = placed("_transmission.value")
     min_transmission_angle_at: float = placed("_transmission.place")
@@ -296,7 +294,12 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     @cached_property
     def layouts(self) -> tuple[Layout, ...]:
         """The bodies of each plane of gears."""
-        return layouts(self)
+        spec = self.spec
+        one, other = (set(train.pins) for train in spec.trains)
+        shafts, least = shafts_at("AF", spec.shafts), least_shaft(spec.limits, max(each.module for each in spec.trains))
+        gears = [tuple(_gears(self, number)) for number in (0, 1)]
+        planes = gears if one & other else [gears[0] + gears[1]]
+        return tuple(Layout(each, shafts, self.reaches, least) for each in planes)
 
     @property
     def gear_gap(self) -> float | None:
@@ -309,9 +312,8 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         """Input angles of a table [deg]."""
         if self.period_turns is not None:
             return turn_degrees(samples, self.period_turns)
-        asked = self.spec.range
-        assert asked is not None, "without a period there is a range"
-        return range_rows(asked.start, asked.end, samples)
+        assert self.spec.range is not None, "without a period there is a range"
+        return range_rows(self.spec.range.start, self.spec.range.end, samples)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Directions of all links, speed and acceleration of the output, transmission angle."""
@@ -341,9 +343,8 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         degrees = self._rows(samples)
         pins = zip("BCDE", LINKS[1:5], strict=True)
         shown = [Shown(f"{x}_{pin}", coordinate(link, pin, along)) for pin, link in pins for x, along in _AXES]
-        return Table.of(
-            "joints", {"input_angle": (degrees, "deg"), **columns_of(self.moving, np.radians(degrees), shown)}
-        )
+        columns = columns_of(self.moving, np.radians(degrees), shown)
+        return Table.of("joints", {"input_angle": (degrees, "deg"), **columns})
 
     # Checks
 
@@ -351,16 +352,15 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         """The checks of each mesh, and the design's own."""
         if name not in MESH_CHECKS:
             return super().check(name)
-        found = ((pins_, mesh) for pins_, mesh in self.meshes.items())
-        return [check for pins_, mesh in found for check in mesh_checks(name, mesh, self.spec.limits, pins_)]
+        limits = self.spec.limits
+        return [each for pins, mesh in self.meshes.items() for each in mesh_checks(name, mesh, limits, pins)]
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears of one plane that do not mesh."""
         remedy = "lengthen the links between them"
         for pair in chain.from_iterable(layout.gear_pairs for layout in self.layouts):
-            apart = without_noise(pair.distance, pair.one.outer + pair.other.outer)
-            why = f"pins {short(apart)} mm apart"
-            yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
+            apart = short(without_noise(pair.distance, pair.one.outer + pair.other.outer))
+            yield collision_check(pair, self.spec.limits.gear_gap, f"pins {apart} mm apart", remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
@@ -384,17 +384,6 @@ def _mesh(train: SixTrain, k: int) -> GearPair:
         return GearPair.from_shift(train.module, (other, one) if one < 0 else (one, other), pressure_angle=alpha)
 
 
-def layouts(design: GearedSixBar) -> tuple[Layout, ...]:
-    """The bodies of each plane."""
-    spec = design.spec
-    one, other = (set(train.pins) for train in spec.trains)
-    planes = ((0,), (1,)) if one & other else ((0, 1),)
-    shafts = shafts_at("AF", spec.shafts)
-    least = least_shaft(spec.limits, max(train.module for train in spec.trains))
-    gears = [tuple(gear for i in plane for gear in _gears(design, i)) for plane in planes]
-    return tuple(Layout(each, shafts, design.reaches, least) for each in gears)
-
-
 def _gears(design: GearedSixBar, number: int) -> list[Gear]:
     """The gears of a train, called by their pins.
 
@@ -413,9 +402,8 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
             found.append(ring._replace(name=f"the ring gear on {pin}", turns_with=shaft))
             continue
         tip = 0.5 * train.module * teeth + train.module
-        found.append(
-            Gear(f"the gear on {pin}", pin, tip, mates=mates, turns_with=shaft, root=tip - FULL_HEIGHT * train.module)
-        )
+        root = tip - FULL_HEIGHT * train.module
+        found.append(Gear(f"the gear on {pin}", pin, tip, mates=mates, turns_with=shaft, root=root))
     return found
 
 

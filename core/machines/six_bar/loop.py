@@ -105,7 +105,6 @@ def reduced(rows: Sequence[Row]) -> tuple[list[Row], list[int]]:
 
 
 FREE = range(2, _COUNT)
-NAMES = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 
 BLOCK = 4096  # of places, so that they stay in the cache
 
@@ -142,7 +141,7 @@ class SixBar:
     assembly: int = 1
 
     def __post_init__(self) -> None:
-        require_lengths(**dict(zip(NAMES, self.lengths, strict=True)))
+        require_lengths(**dict(zip(LINKS, self.lengths, strict=True)))
         _ = self.tied, self.start_angles
 
     @cached_property
@@ -187,7 +186,7 @@ class SixBar:
         try:
             pin = close_dyad(0j, gap, self.lengths[one], self.lengths[other], self.assembly)
         except NoSolution as error:
-            ways = f"{NAMES[one]} and {NAMES[other]}"
+            ways = f"{LINKS[one]} and {LINKS[other]}"
             message = f"the six-bar does not close at the start: the ends of {ways} are {error.message}"
             raise NoSolution(message, fix=error.fix) from None
         found = {**self.start, one: cmath.phase(pin), other: cmath.phase(gap - pin)}

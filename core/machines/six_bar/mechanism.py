@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -43,10 +44,10 @@ def motion(design: GearedSixBar) -> Motion:
     Raises
         NoSolution - where a dead centre is met on the way
     """
-    course, six = design.course, _Six(design)
+    course = design.course
     given = Input(start=course.start, end=course.end, turns=course.period_turns)
     outputs = (Output("Output link EF", output(design)),)
-    return Motion(six.at, given, outputs, transmission=transmission(design))
+    return Motion(partial(_at, design), given, outputs, transmission=transmission(design))
 
 
 def output(design: GearedSixBar) -> Course:
@@ -70,38 +71,33 @@ def pins(design: GearedSixBar, phi: Reals) -> list[Points]:
     return [links[name].origin.value for name in LINKS[1:5]] + [links["output"].at(place).value for place in "EF"]
 
 
-class _Six:
-    """The links at input angles."""
+def _at(design: GearedSixBar, phi: Reals, order: int, _side: int) -> Mechanism:
+    """All links and joints at input angles."""
+    links, places, turns = _loop(design, phi, order)
+    joints: list[Connection] = [
+        Pin(pin, first, second, place.value)
+        for pin, first, second, place in zip(PINS, HOLDING, (*LINKS[1:], "output"), places, strict=True)
+    ]
+    for number, train in enumerate(design.spec.trains, start=1):
+        links |= _free_gears(train, number, places, turns)
+        joints += _gears(train, number, links, places)
+    return Mechanism(links, joints, "input")
 
-    def __init__(self, design: GearedSixBar) -> None:
-        self.course, self.lengths, self.trains = design.course, design.lengths, design.spec.trains
-        self.starts = (0.0, *design.bar.start_angles)
 
-    def at(self, phi: Reals, order: int, _side: int) -> Mechanism:
-        """All links and joints."""
-        links, places, turns = self._loop(phi, order)
-        joints: list[Connection] = [
-            Pin(pin, first, second, place.value)
-            for pin, first, second, place in zip(PINS, HOLDING, (*LINKS[1:], "output"), places, strict=True)
-        ]
-        for number, train in enumerate(self.trains, start=1):
-            links |= _free_gears(train, number, places, turns)
-            joints += _gears(train, number, links, places)
-        return Mechanism(links, joints, "input")
-
-    def _loop(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Point], list[Turn]]:
-        """The five links, the six pins, and what all six links have turned since the start, the frame first."""
-        directions = zip(*self.course.rates(phi, order), strict=True)
-        turns = [steady(phi, order=order), *(Turn(*rows) for rows in directions)]
-        links, places = {}, [fixed(0j, phi, order=order)]
-        for name, turn, length, ends in zip(LINKS[1:5], turns[:4], self.lengths[1:5], pairwise(PINS[:5]), strict=True):
-            links[name] = Link(places[-1], turn, dict(zip(ends, (0.0, length), strict=True)))
-            places.append(links[name].at(length))
-        places.append(fixed(self.lengths[0], phi, order=order))
-        # The loop runs from E to F, the x axis of the output from its pivot F to E.
-        links["output"] = Link(places[-1], from_start(turns[4], -math.pi), {"F": 0.0, "E": self.lengths[5]})
-        since = [from_start(turn, start) for turn, start in zip(turns, self.starts, strict=True)]
-        return links, places, [standing(0.0, phi, order=order), *since]
+def _loop(design: GearedSixBar, phi: Reals, order: int) -> tuple[dict[str, Link], list[Point], list[Turn]]:
+    """The five links, the six pins, and what all six links have turned since the start, the frame first."""
+    directions, lengths = zip(*design.course.rates(phi, order), strict=True), design.lengths
+    turns = [steady(phi, order=order), *(Turn(*rows) for rows in directions)]
+    links, places = {}, [fixed(0j, phi, order=order)]
+    for name, turn, length, ends in zip(LINKS[1:5], turns[:4], lengths[1:5], pairwise(PINS[:5]), strict=True):
+        links[name] = Link(places[-1], turn, dict(zip(ends, (0.0, length), strict=True)))
+        places.append(links[name].at(length))
+    places.append(fixed(lengths[0], phi, order=order))
+    # The loop runs from E to F, the x axis of the output from its pivot F to E.
+    links["output"] = Link(places[-1], from_start(turns[4], -math.pi), {"F": 0.0, "E": lengths[5]})
+    starts = (0.0, *design.bar.start_angles)
+    since = [from_start(turn, start) for turn, start in zip(turns, starts, strict=True)]
+    return links, places, [standing(0.0, phi, order=order), *since]
 
 
 def _free_gears(train: SixTrain, number: int, places: list[Point], turns: list[Turn]) -> dict[str, Link]:

@@ -91,8 +91,7 @@ class SixStart(Spec):
     @property
     def given(self) -> dict[str, float]:
         """The directions of the file [deg]."""
-        names = ("coupler_1", "coupler_2", "coupler_3", "output")
-        return {name: value for name in names if (value := getattr(self, name)) is not None}
+        return {name: value for name in LINKS[2:] if (value := getattr(self, name)) is not None}
 
 
 class SixShafts(Spec):
