@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec
-from gearlink.core.studies.loads.spec import Balance, Body, Loads
+from gearlink.core.studies.loads.spec import Balance, Body, Loads, masses
 
 
 class CrankRockerMasses(Spec):
@@ -17,7 +17,5 @@ class CrankRockerMasses(Spec):
 class CrankRockerLoads(Loads):
     """Masses, forces and drive of a crank-rocker."""
 
-    links: CrankRockerMasses = Field(
-        CrankRockerMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: CrankRockerMasses = masses(CrankRockerMasses)
     balance: Balance | None = None

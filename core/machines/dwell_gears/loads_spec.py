@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec, unit
-from gearlink.core.studies.loads.spec import Body, Loads
+from gearlink.core.studies.loads.spec import Body, Loads, masses
 
 
 class HypocycloidMasses(Spec):
@@ -21,9 +21,7 @@ class HypocycloidMasses(Spec):
 class HypocycloidLoads(Loads):
     """Masses, forces and drive of a hypocycloid dwell."""
 
-    links: HypocycloidMasses = Field(
-        HypocycloidMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: HypocycloidMasses = masses(HypocycloidMasses)
 
 
 Direction = Annotated[float, unit("deg", ge=-360, le=360)]
@@ -44,6 +42,4 @@ class MutilatedLoads(Loads):
     wheel_direction: Direction | None = Field(
         None, description="direction from A to the wheel's axis W; default: no bearing force at A, no GL302 of W and D"
     )
-    links: MutilatedMasses = Field(
-        MutilatedMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: MutilatedMasses = masses(MutilatedMasses)

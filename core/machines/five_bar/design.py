@@ -691,14 +691,14 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, Meshed):
     extra_tables = ("drawing", "factors", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
-        """The target met with gears in the ratios 1, 2 and 1/2 in both assemblies; each row is a search of its own."""
+        """The target met with other gears side by side."""
         if self.spec.target is None:
             raise nothing_sought("give target: points, positions or a function")
         one, *_, other = self.spec.gears.gear_names()
         own = getattr(self.spec.gears, one), getattr(self.spec.gears, other)
         keys = {f"gears.{name}": (f"{name}_teeth", "1") for name in (one, other)} | {"assembly": ("assembly", "1")}
         teeth = list(dict.fromkeys((own, *((min(own) * p, min(own) * q) for p, q in _RATIOS))))
-        # A function's search takes seconds: it keeps to the file's assembly.
+        # Each row is a search of its own; that of a function takes seconds: it keeps to the file's assembly.
         sides = (1, -1) if self.is_path else (self.spec.assembly,)
         rows = [(*pair, side) for pair in teeth for side in sides]
         return table(self, Sought("analyze", keys, rows, (*_CANDIDATES_LINKS, *_QUALITY)))

@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec
-from gearlink.core.studies.loads.spec import Body, Loads
+from gearlink.core.studies.loads.spec import Body, Loads, masses
 
 
 class FiveBarMasses(Spec):
@@ -19,6 +19,4 @@ class FiveBarMasses(Spec):
 class FiveBarLoads(Loads):
     """Masses, forces and drive of a geared five-bar."""
 
-    links: FiveBarMasses = Field(
-        FiveBarMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: FiveBarMasses = masses(FiveBarMasses)

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from gearlink.core.base.spec import Length, Spec, unit
-from gearlink.core.studies.loads.spec import Body, CommonLoads, Material, Roller
+from gearlink.core.studies.loads.spec import Body, CommonLoads, Material, Roller, masses
 
 Direction = Annotated[float, unit("deg", ge=-360, le=360)]
 
@@ -30,9 +30,7 @@ class PressMasses(Spec):
 class PressLoads(CommonLoads):
     """Masses, forces and drive of a flatbed press; its speed is the press's own."""
 
-    links: PressMasses = Field(
-        PressMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: PressMasses = masses(PressMasses)
     bed_side: Literal[1, -1] = Field(
         1,
         description=(

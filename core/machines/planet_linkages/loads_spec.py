@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec
-from gearlink.core.studies.loads.spec import Balance, Body, Loads
+from gearlink.core.studies.loads.spec import Balance, Body, Loads, masses
 
 
 class PlanetMasses(Spec):
@@ -18,7 +18,5 @@ class PlanetMasses(Spec):
 class PlanetLoads(Loads):
     """Masses, forces and drive of a four-bar with a gear on its coupler."""
 
-    links: PlanetMasses = Field(
-        PlanetMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: PlanetMasses = masses(PlanetMasses)
     balance: Balance | None = None

@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec
-from gearlink.core.studies.loads.spec import Body, Loads
+from gearlink.core.studies.loads.spec import Body, Loads, masses
 
 
 class SixBarMasses(Spec):
@@ -31,6 +31,4 @@ class SixBarMasses(Spec):
 class SixBarLoads(Loads):
     """Masses, forces and drive of a geared six-bar."""
 
-    links: SixBarMasses = Field(
-        SixBarMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: SixBarMasses = masses(SixBarMasses)

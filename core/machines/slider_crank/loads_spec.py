@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec, unit
-from gearlink.core.studies.loads.spec import Body, Loads
+from gearlink.core.studies.loads.spec import Body, Loads, masses
 
 
 class SliderCrankMasses(Spec):
@@ -29,7 +29,5 @@ class SliderCrankBalance(Spec):
 class SliderCrankLoads(Loads):
     """Masses, forces and drive of a slider-crank."""
 
-    links: SliderCrankMasses = Field(
-        SliderCrankMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: SliderCrankMasses = masses(SliderCrankMasses)
     balance: SliderCrankBalance | None = None

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from gearlink.core.base.spec import Spec
-from gearlink.core.studies.loads.spec import Balance, Body, Loads
+from gearlink.core.studies.loads.spec import Balance, Body, Loads, masses
 
 
 class ThreeGearMasses(Spec):
@@ -21,8 +21,6 @@ class ThreeGearMasses(Spec):
 class ThreeGearLoads(Loads):
     """Masses, forces and drive of a three-gear four-bar."""
 
-    links: ThreeGearMasses = Field(
-        ThreeGearMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
-    )
+    links: ThreeGearMasses = masses(ThreeGearMasses)
     idler_pin: Literal["coupler", "rocker"] = Field("coupler", description="link that the pin of the idler is fixed to")
     balance: Balance | None = None

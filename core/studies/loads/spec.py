@@ -24,6 +24,11 @@ Pair = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[angl
 AboveZero = Annotated[float, unit("N/mm", gt=0, le=1e12)]
 
 
+def masses(of: type[Spec]) -> Any:
+    """The key `links` of a section `loads`, by default without any mass."""
+    return Field(of.model_construct(), description="masses of the links; a part without an entry has no mass")
+
+
 class Body(Spec):
     """Mass of a link; keys that are not given are zero."""
 
