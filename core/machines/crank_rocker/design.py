@@ -87,9 +87,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
     def outline(self, command: str) -> Outline:
         """With a point on the coupler, an analysis shows its path."""
         found = self.outlines[command]
-        if self.spec.coupler_point is None:
-            return found
-        return found._replace(tables=(*found.tables, "path"))
+        return found if self.spec.coupler_point is None else found._replace(tables=(*found.tables, "path"))
 
     # Links
 
@@ -207,12 +205,8 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The rocker over a revolution of the crank, or over its range with both ends."""
-        course = rocker(self)
-        return self._over(
-            "motion",
-            [*of_output(course, "rocker_angle", "rocker"), Shown("transmission_angle", between("coupler", "rocker"))],
-            samples,
-        )
+        shown = of_output(rocker(self), "rocker_angle", "rocker")
+        return self._over("motion", [*shown, Shown("transmission_angle", between("coupler", "rocker"))], samples)
 
     def table_links(self, samples: int | None = None) -> Table:
         """Angle, speed, acceleration and jerk of coupler and rocker."""
@@ -259,13 +253,9 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303."""
-        over = "the revolution" if self.crank_range is None else "the range"
-        yield transmission_check(
-            self.min_transmission_angle,
-            self.spec.limits.transmission_angle,
-            self.remedy,
-            f"minimum transmission angle over {over}",
-        )
+        what = f"minimum transmission angle over the {'revolution' if self.crank_range is None else 'range'}"
+        limit = self.spec.limits.transmission_angle
+        yield transmission_check(self.min_transmission_angle, limit, self.remedy, what)
 
     remedy = "shorten the crank, or bring coupler and rocker nearer to a right angle"
 

@@ -238,12 +238,8 @@ def _constants(pairs: Sequence[Sequence[float]]) -> tuple[float, float, float]:
     (a1, b1, r1), (a2, b2, r2) = rows
     det, size = a1 * b2 - a2 * b1, abs(a1 * b2) + abs(a2 * b1)
     over, under = r1 * b2 - r2 * b1, a1 * r2 - a2 * r1
-    small = (
-        abs(det) <= _SINGULAR * size
-        or abs(over) <= _SINGULAR * (abs(r1 * b2) + abs(r2 * b1))
-        or abs(under) <= _SINGULAR * (abs(a1 * r2) + abs(a2 * r1))
-    )
-    if small:
+    sizes = (det, size), (over, abs(r1 * b2) + abs(r2 * b1)), (under, abs(a1 * r2) + abs(a2 * r1))
+    if any(abs(each) <= _SINGULAR * terms for each, terms in sizes):
         raise NoSolution(
             "these pairs give no linkage of finite length: two of them are equal, or rocker and crank turn in "
             "proportion",

@@ -659,9 +659,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, Meshed):
         found, wanted = self.function_fit, self.wanted
         if found is None or wanted is None:
             return None
-        error = found.error
-        rows = zip(error.places, error.errors, strict=True)
-        most = error.greatest * (1.0 - 1e-9)
+        rows = zip(found.error.places, found.error.errors, strict=True)
+        most = found.error.greatest * (1.0 - 1e-9)
         return [found.start + wanted.input_swing * place for place, value in rows if abs(value) >= most]
 
     @property
@@ -834,8 +833,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, WithShafts, Meshed):
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: input and output gear with an idler between them."""
         for pair in self.layout.gear_pairs:
-            why = f"axes {short(pair.distance)} mm apart"
-            remedy = "lengthen the frame, as far as the idler reaches"
+            why, remedy = f"axes {short(pair.distance)} mm apart", "lengthen the frame, as far as the idler reaches"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_transmission_angle(self) -> Check:

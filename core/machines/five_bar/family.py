@@ -170,9 +170,8 @@ class FiveBarFamily:
         return np.where(there, sign * cosine, -1.0), np.where(there[..., None], sign[:, None] * slopes, 0.0)
 
     def _extreme_pins(self, x: Reals) -> tuple[Points, Points, Mask]:
-        """AB and ED where |BD| is smallest and maximum, from the grid's humps by Newton's steps; which of them "
-        "exist."""
-        square = _square(self._way(x, self._span_turns))
+        """AB and ED where |BD| is minimum and maximum, from the grid's humps by Newton's steps; which of them exist."""
+        square = self._square(x, self._span_turns)
         (low, some), (high, others) = _humps(-square, _HUMPS), _humps(square, _HUMPS)
         phi = self._span_grid[np.concatenate((low, high), axis=1)]
         reach = self.period / self.span_count
@@ -184,14 +183,14 @@ class FiveBarFamily:
             phi = phi + np.clip(np.where(np.isfinite(step), step, 0.0), -reach, reach)
         return *self._pins(x, self._turned(phi)), np.concatenate((some, others), axis=1)
 
-    def _way(self, x: Reals, turns: tuple[Points, Points]) -> Points:
+    def _square(self, x: Reals, turns: tuple[Points, Points]) -> Reals:
+        """|BD|^2."""
         start, output = self._pins(x, turns)
-        way: Points = self.frame + output - start
-        return way
+        return _square(self.frame + output - start)
 
     def spans(self, x: Reals) -> tuple[Reals, Reals]:
         """Minimum and maximum |BD| at the grid's places, one each for every row; coupler and follower do not count."""
-        square = _square(self._way(x, self._turns))
+        square = self._square(x, self._turns)
         return np.sqrt(square.min(axis=1)), np.sqrt(square.max(axis=1))
 
 
@@ -200,8 +199,7 @@ def _square(vector: Points) -> Reals:
 
 
 def _offset(x: Reals) -> Points:
-    offset: Points = x[:, 5:6] + 1j * x[:, 6:7]
-    return offset
+    return np.asarray(x[:, 5:6] + 1j * x[:, 6:7])
 
 
 def _humps(value: Reals, most: int) -> tuple[Places, Mask]:

@@ -27,8 +27,7 @@ def rates(bar: PathFiveBar, phi: Reals, offset: complex) -> tuple[Points, Points
 def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
     """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens)."""
     start, _, u2, _ = _position(bar, phi)
-    result: Points = start + offset * u2
-    return result
+    return np.asarray(start + offset * u2)
 
 
 def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points]:
@@ -55,9 +54,7 @@ def _rates(
     w2, w3 = (product(apart, np.conj(u)).real / (length * sine) for u, length in ((u3, b), (u2, c)))
     pull = -start + k * k * (end - bar.frame) - w2 * w2 * b * u2 + w3 * w3 * c * u3
     a2 = product(pull, np.conj(u3)).real / (b * sine)
-    velocity: Points = 1j * start + 1j * w2 * offset * u2
-    acceleration: Points = -start + (1j * a2 - w2 * w2) * offset * u2
-    return velocity, acceleration
+    return 1j * start + 1j * w2 * offset * u2, -start + (1j * a2 - w2 * w2) * offset * u2
 
 
 def coupler_angles(bar: PathFiveBar, phi: Reals) -> Reals:
