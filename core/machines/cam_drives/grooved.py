@@ -430,12 +430,9 @@ class CamLinkage(Grooved):
         least, most = abs(links.coupler - links.follower), links.coupler + links.follower
         open_at = far if far.value >= most else near if near.value <= least else None
         if open_at is not None:
-            raise NoSolution(
-                f"coupler and follower do not close: distance BD {short(open_at.value)} mm (reach "
-                f"{within(least, most, 'mm')}) at input angle {short(math.degrees(open_at.place))} deg",
-                key="links",
-                fix="change links.coupler or links.follower, or phase",
-            )
+            message = f"coupler and follower do not close: distance BD {short(open_at.value)} mm (reach "
+            message += f"{within(least, most, 'mm')}) at input angle {short(math.degrees(open_at.place))} deg"
+            raise NoSolution(message, key="links", fix="change links.coupler or links.follower, or phase")
 
     def path(self, theta: Reals) -> Path:
         """C and its derivatives; u is across BC."""

@@ -71,11 +71,8 @@ class Series(NamedTuple):
         found, _, _, singular = np.linalg.lstsq(columns, radius, rcond=None)
         if singular[0] > _LARGEST_CONDITION * singular[-1]:
             widest = math.degrees(float(np.max(np.diff(np.append(t, t[0] + TURN)))))
-            raise NoSolution(
-                f"the points leave the profile open: gap of {widest:.4g} deg for {order} harmonics",
-                key="harmonics",
-                fix="reduce harmonics, or give points in the gap",
-            )
+            message = f"the points leave the profile open: gap of {widest:.4g} deg for {order} harmonics"
+            raise NoSolution(message, key="harmonics", fix="reduce harmonics, or give points in the gap")
         return cls(np.append(found[0], found[1 : order + 1]), np.append(0.0, found[order + 1 :]))
 
     def at(self, t: Reals, order: int) -> list[Reals]:
@@ -241,11 +238,8 @@ class MeasuredCam:
         rate = -self.sense * found.cam_angle[1]
         if np.min(rate) <= 0.0:
             worst = math.degrees(float(np.mod(t[int(np.argmin(rate))], TURN)))
-            raise NoSolution(
-                f"undercut or noise: the cam angle turns back at {worst:.4g} deg of the profile",
-                key="profile",
-                fix="reduce harmonics, or check roller_radius",
-            )
+            message = f"undercut or noise: the cam angle turns back at {worst:.4g} deg of the profile"
+            raise NoSolution(message, key="profile", fix="reduce harmonics, or check roller_radius")
         return t, found.cam_angle[0]
 
     def at_cam_angle(self, phi: Reals) -> Reals:
@@ -271,11 +265,8 @@ class MeasuredCam:
             if most <= _EXACT or last <= most <= _SETTLED:  # what is left is rounding
                 return np.asarray(t)
             last = most
-        raise NoSolution(
-            f"no point of the profile to the cam angle, {math.degrees(last):.3g} deg missed",
-            key="profile",
-            fix="reduce harmonics, or check the points",
-        )
+        message = f"no point of the profile to the cam angle, {math.degrees(last):.3g} deg missed"
+        raise NoSolution(message, key="profile", fix="reduce harmonics, or check the points")
 
     def motion(self, phi: Reals) -> tuple[Reals, Reals, Reals]:
         """Coordinate of the follower and its derivatives by the cam angle [rad or mm]."""

@@ -152,10 +152,8 @@ def _checked_shares(a: float, b: float, c: float, d: float) -> tuple[float, floa
         raise NoSolution(f"scca shares {list(shares)} must not be negative", fix="give four shares >= 0 with sum 1")
     total = math.fsum(shares)
     if not abs(total - 1.0) <= 1e-9:
-        raise NoSolution(
-            f"scca shares {list(shares)} have the sum {unlike(total, 1.0)} (required 1)",
-            fix=f"change one of them by {1.0 - total:+.9g}",
-        )
+        message = f"scca shares {list(shares)} have the sum {unlike(total, 1.0)} (required 1)"
+        raise NoSolution(message, fix=f"change one of them by {1.0 - total:+.9g}")
     if d >= 1.0:
         raise NoSolution("scca share d = 1 leaves no time to accelerate", fix="keep d below 1 (0.2 to 0.5 is usual)")
     return a / total, b / total, c / total, d / total
@@ -361,11 +359,9 @@ def _joints(half: FirstHalf) -> tuple[float, ...]:
 def _half_law(name: str, half: FirstHalf) -> Law:
     """s = 2 s0(u/2)/Cv, v = v0(u/2)/Cv, a = a0(u/2)/(2 Cv), j = j0(u/2)/(4 Cv)"""
     if half.end_jumps or half.middle_jumps:
-        raise NoSolution(
-            f"motion law {name!r}: the acceleration is not zero at both ends of the first half, so it "
-            "jumps at the dwell or at the constant speed",
-            fix="use half-cycloidal or velocity-345",
-        )
+        message = f"motion law {name!r}: the acceleration is not zero at both ends of the first half, so it "
+        message += "jumps at the dwell or at the constant speed"
+        raise NoSolution(message, fix="use half-cycloidal or velocity-345")
     speed = half.peak_velocity
 
     def derivatives(x: Any, low: int, high: int) -> tuple[Any, ...]:

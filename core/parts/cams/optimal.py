@@ -376,12 +376,11 @@ class Programme:
         wish = self.wish
         given = ", ".join(f"{key} {limit:g}" for key, limit in self.limits)
         text = f"no law of degree {wish.degree} keeps {given}"
-        if not wish.to_speed and wish.jerk is not None:
-            least = 0.25 * wish.jerk * (1.0 - math.sqrt(1.0 - 32.0 / wish.jerk))
-            text += f" (with jerk {wish.jerk:g} the acceleration of any law reaches {safely_below(least)})"
-        elif not wish.to_speed and wish.acceleration is not None:
-            least = _ramp(wish.acceleration)
-            text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {safely_below(least)})"
+        key, of = ("acceleration", "velocity") if wish.jerk is None else ("jerk", "acceleration")
+        if not wish.to_speed and (limit := getattr(wish, key)) is not None:
+            least = bound_of_all_laws(wish._replace(minimize=of))
+            assert least is not None, "it is known of both"
+            text += f" (with {key} {limit:g} the {of} of any law reaches {safely_below(least)})"
         return NoSolution(text, fix="increase degree or a limit")
 
     # What is proved

@@ -196,9 +196,8 @@ def _end_values(model: Any, key: str, phase: Phase) -> list[float]:
         fix = "join uses the end values of a neighbouring segment, which only a segment of a cam has"
         raise NoSolution(key, key=key, fix=fix)
     if phase.angle is None or not phase.rise:
-        raise NoSolution(
-            f"{key}: speed and acceleration of a lift apply only to a segment of a cam", key=key, fix="give [s, v, a]"
-        )
+        message = f"{key}: speed and acceleration of a lift apply only to a segment of a cam"
+        raise NoSolution(message, key=key, fix="give [s, v, a]")
     scale = phase.angle / phase.rise
     return [1.0 if key == "end" else 0.0, given.speed * scale, given.acceleration * scale * phase.angle]
 

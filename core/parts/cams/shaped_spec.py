@@ -172,14 +172,12 @@ class TableLaw(Spec):
             raise refused(f"points of a table law: {len(self.points)} (at least {FEWEST_POINTS})", "points")
         x = [place for place, _ in self.points]
         if x[0] != 0.0 or x[-1] != 1.0:
-            raise refused(
-                f"x of a table law runs from 0 to 1, not from {unlike(x[0], 0.0)} to {unlike(x[-1], 1.0)}", "points"
-            )
+            message = f"x of a table law runs from 0 to 1, not from {unlike(x[0], 0.0)} to {unlike(x[-1], 1.0)}"
+            raise refused(message, "points")
         for k, (before, after) in enumerate(pairwise(x), 1):
             if after <= before:
-                raise refused(
-                    f"x of a table law ascends: {unlike(after, before)} follows {unlike(before, after)}", f"points[{k}]"
-                )
+                message = f"x of a table law ascends: {unlike(after, before)} follows {unlike(before, after)}"
+                raise refused(message, f"points[{k}]")
         if self.points[0][1] != 0.0:
             raise refused(f"the first s of a table law is 0, not {short(self.points[0][1])}", "points[0]")
         return self

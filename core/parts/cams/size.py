@@ -120,10 +120,8 @@ def _nearest_admissible(
             return point
         cuts = [*cuts, *(cut for violation, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
-    raise NoSolution(
-        f"a pressure angle of {math.degrees(max_pressure_angle):g} deg does not determine the smallest cam",
-        fix="increase the pressure angle of cam.size slightly",
-    )
+    message = f"a pressure angle of {math.degrees(max_pressure_angle):g} deg does not determine the smallest cam"
+    raise NoSolution(message, fix="increase the pressure angle of cam.size slightly")
 
 
 def _largest_of(normal: Points, limit: Reals, point: complex) -> _Violation:
