@@ -148,7 +148,7 @@ class Groove:
         return Table.of("main_cam", columns)
 
     @cached_property
-    def star_shaped(self) -> tuple[bool, bool]:
+    def star_shaped(self) -> tuple[Any, Any]:
         """Whether the polar angle of inner and outer wall runs one way: without a cusp none then crosses itself."""
         closed = np.radians(turn_degrees(2 * _SAMPLES))
         inner, outer = (self.sense * (np.conj(w) * np.roll(w, -1, axis=-1)).imag > 0.0 for w in self.walls(closed))
