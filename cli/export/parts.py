@@ -358,7 +358,8 @@ def mutilated(design: Any) -> Makers:
     hands = train_hands(design)
 
     def data_of() -> GearData:
-        return design.mesh_data[""]  # type: ignore[no-any-return]
+        found: GearData = design.mesh_data[""]
+        return found
 
     made = of_mesh(design.mesh, ("", "gear2"), ("", "gear 2, driven"), "gears", data_of=data_of, hands=hands)
 

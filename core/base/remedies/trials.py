@@ -75,9 +75,7 @@ def with_fix(design: Design, command: str, error: NoSolution) -> NoSolution:
         return error
     known = [] if design.kin is None else design.kin.remedies
     remedy = next(filter(bench.holds, known), ()) or next(filter(bench.leads, bench.of_refusal(error)), ())
-    if leads and not (remedy and bench.holds(remedy)):
-        return error
-    if not remedy:
+    if not remedy or (leads and not bench.holds(remedy)):
         return error
     known.append(remedy)
     again = anew(error)

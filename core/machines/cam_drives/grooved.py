@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -147,6 +148,10 @@ class Groove:
         columns["curvature_radius"] = radius, "mm"
         return Table.of("main_cam", columns)
 
+    def with_wall(self, side: int, theta: Reals) -> tuple[Points, Points]:
+        """Path of the roller's centre, and its inner (0) or outer (1) wall."""
+        return self.path(theta).place, self.walls(theta)[side]
+
     @cached_property
     def star_shaped(self) -> tuple[Any, Any]:
         """Whether the polar angle of inner and outer wall runs one way: without a cusp none then crosses itself."""
@@ -285,7 +290,7 @@ class Grooved(RealSpeed, Design):
             status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"
             what, shown = f"roller radius, {name} wall", against_curvature(roller, found.value, status)
             if status == "pass" and not groove.star_shaped[side]:
-                cut = undercut(lambda theta, k=side: (groove.path(theta).place, groove.walls(theta)[k]), roller)  # type: ignore[misc]
+                cut = undercut(partial(groove.with_wall, side), roller)
                 if cut.depth > _CUT * roller:
                     status, what, place = "fail", f"cut of the roller into the {name} wall", cut.cam_angle
                     shown = Compared(cut.depth, 0.0, "mm", "<=")

@@ -178,13 +178,13 @@ class FollowerCams:
         if roller is not None:
             least = self._least_radius(roller.radius)
             lowest = height_for_curvature(self._returning, least, -offset, self.sense) - whole
-            if equal:
+            if roller.distance is None:
                 height = max(height, lowest)
             else:
                 # the rollers may stand too near to each other for the limits of the return cam
                 farthest = height + max(lowest, height_at(back, offset)) + whole
-                if roller.distance < farthest * (1.0 - 1e-12):  # type: ignore[operator]
-                    message = f"at a roller distance of {short(roller.distance)} mm the return cam does not keep "  # type: ignore[arg-type]
+                if roller.distance < farthest * (1.0 - 1e-12):
+                    message = f"at a roller distance of {short(roller.distance)} mm the return cam does not keep "
                     fix = f"increase return_roller.distance to {safely_above(farthest)} mm, or omit it"
                     raise NoSolution(f"{message}cam.size", key="return_roller.distance", fix=fix)
         if height + self.lifts[0] <= 0.0:

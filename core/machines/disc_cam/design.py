@@ -435,9 +435,9 @@ class DiscCamDesign(OfFollower, Design):
             if spec.cam.size is None:
                 return f"set {spec.radius_key} to {larger}"
             center, given = self.center_distance, getattr(spec.follower, "center_distance", None)
-            found = given is None and center is not None
-            pivot = f", with follower.center_distance: {safely_above(center)}" if found else ""  # type: ignore[arg-type]
-            return f"replace cam.size by {spec.radius_key}: {larger}{pivot}"
+            if given is None and center is not None:
+                larger = f"{larger}, with follower.center_distance: {safely_above(center)}"
+            return f"replace cam.size by {spec.radius_key}: {larger}"
 
         yield from hub_checks(SHAFT_CLEARANCE, self.profiles, self.spec.cam.shaft_radius, farther)
 

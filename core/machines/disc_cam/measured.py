@@ -28,6 +28,7 @@ from gearlink.core.machines.disc_cam.design import Closing, DiscCamDesign, found
 from gearlink.core.numerics.arrays import Points, Reals, median, turn_degrees, unit_vector
 from gearlink.core.numerics.extremes import Extreme, greatest, least_convex_radius, maximum_over, minimum_over
 from gearlink.core.parts.cams.disc_cam import DiscCam
+from gearlink.core.parts.cams.follower_design import in_time
 from gearlink.core.parts.cams.follower_motion import Stroke
 from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
@@ -779,13 +780,8 @@ class MeasuredCamDesign(DiscCamDesign):
         """Cam angle at which a place on the profile is touched [rad]."""
         return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], TURN))
 
-    @property
-    def follower_velocity_max(self) -> float | None:  # type: ignore[override]
-        return None if self.speed is None else self.speed * self.rates[0]
-
-    @property
-    def follower_acceleration_max(self) -> float | None:  # type: ignore[override]
-        return None if self.speed is None else self.speed**2 * self.rates[1]
+    follower_velocity_max: float | None = in_time(lambda design: design.rates[0], 1)
+    follower_acceleration_max: float | None = in_time(lambda design: design.rates[1], 2)
 
     @cached_property
     def phases(self) -> list[MeasuredPhase]:

@@ -79,9 +79,9 @@ def undercut_checks(
             what = f"cut of the roller of the {cam.name} into its own profile"
             shown, at = Shown(cut.depth, 0.0, "mm", "<="), f"cam angle {short(math.degrees(cut.cam_angle))} deg"
             # at a convex corner of the pitch curve a roller of any radius cuts, however large the cam
-            corner = max(cam.corners, default=None)
-            of_step = corner is not None and corner.value > 0.0
-            fix = WITHOUT_STEP.format(short(math.degrees(corner.place))) if of_step else plainly  # type: ignore[union-attr]
+            corner, fix = max(cam.corners, default=None), plainly
+            if corner is not None and corner.value > 0.0:
+                fix = WITHOUT_STEP.format(short(math.degrees(corner.place)))
             yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
             continue
         if status != "pass":

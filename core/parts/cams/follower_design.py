@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.design import Found, placed
+from gearlink.core.base.design import Found
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.real_speed import OF_TIME
 from gearlink.core.base.report import Check, Status, Table, without_noise
@@ -25,6 +25,11 @@ _CURVES = ("lift", "velocity", "acceleration", "jerk")
 _EXTREMES = ("lift_max", "lift_max_at", *names(*_CURVES[1:]))
 _RATES = tuple((f"{curve}_{side}", order) for order, curve in enumerate(_CURVES[1:3], 1) for side in ("max", "min"))
 FOLLOWER_QUANTITIES = (*_EXTREMES, *(f"follower_{name}" for name, _ in _RATES))
+
+
+def in_time(of: Callable[[Any], float], order: int) -> Any:
+    """A quantity in real time [mm/s^order or rad/s^order] from one per rad^order of the cam; None without a speed."""
+    return property(lambda design: None if design.speed is None else of(design) * design.speed**order)
 
 
 class OfFollower(WithExtremes, WithShapedLaws):
@@ -83,15 +88,10 @@ class OfFollower(WithExtremes, WithShapedLaws):
         """Speed of the cam [rad/s]."""
         return None if self.spec.speed is None else self.spec.speed * math.pi / 30.0
 
-    @property
-    def _in_time(self) -> list[float] | None:
-        speed = self.speed
-        return None if speed is None else [self.motion_extremes[name] * speed**order for name, order in _RATES]
-
-    follower_velocity_max: float | None = placed("_in_time.0")
-    follower_velocity_min: float | None = placed("_in_time.1")
-    follower_acceleration_max: float | None = placed("_in_time.2")
-    follower_acceleration_min: float | None = placed("_in_time.3")
+    follower_velocity_max: float | None = in_time(lambda design: design.motion_extremes["velocity_max"], 1)
+    follower_velocity_min: float | None = in_time(lambda design: design.motion_extremes["velocity_min"], 1)
+    follower_acceleration_max: float | None = in_time(lambda design: design.motion_extremes["acceleration_max"], 2)
+    follower_acceleration_min: float | None = in_time(lambda design: design.motion_extremes["acceleration_min"], 2)
 
     def table_follower(self, samples: int | None = None) -> Table:
         """Lift and its derivatives over the cam angle, with the segment's number."""
@@ -122,9 +122,10 @@ class OfFollower(WithExtremes, WithShapedLaws):
             "lift": (lifts, "deg" if self.rocks else "mm"),
         }
         columns |= {name: ([each[name] for each in found], self._units[order - 1]) for name, order in _RATES}
-        for name, order in _RATES if self.speed is not None else ():
-            values = [each[name] * self.speed**order for each in found]  # type: ignore[operator]
-            columns[f"follower_{name}"] = (values, ("rad" if self.rocks else "mm") + OF_TIME[order])
+        if (speed := self.speed) is not None:
+            for name, order in _RATES:
+                values = [each[name] * speed**order for each in found]
+                columns[f"follower_{name}"] = (values, ("rad" if self.rocks else "mm") + OF_TIME[order])
         return Table.of("segments", columns)
 
     @property
