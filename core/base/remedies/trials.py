@@ -9,8 +9,9 @@ asks for is refused: whoever follows it gets what it says.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
@@ -57,7 +58,8 @@ def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> 
     if not any(found.status == "fail" or _is_sought(design, found) for found in findings):
         return findings  # what warns may be built: no report waits for its trials
     bench = design.bench(command)
-    return tuple(_with(design, bench, found, index) for index, found in enumerate(findings))
+    with _unheard():
+        return tuple(_with(design, bench, found, index) for index, found in enumerate(findings))
 
 
 def with_fix(design: Design, command: str, error: NoSolution) -> NoSolution:
@@ -70,17 +72,26 @@ def with_fix(design: Design, command: str, error: NoSolution) -> NoSolution:
     if isinstance(error, MissingSection) or not design.repairable:
         return error
     bench, told = design.bench(command), printed(error.fix)
-    leads = bool(told) and bench.leads(told)
-    if leads and bench.holds(told):
-        return error
     known = [] if design.kin is None else design.kin.remedies
-    remedy = next(filter(bench.holds, known), ()) or next(filter(bench.leads, bench.of_refusal(error)), ())
-    if not remedy or (leads and not bench.holds(remedy)):
-        return error
+    with _unheard():
+        leads = bool(told) and bench.leads(told)
+        if leads and bench.holds(told):
+            return error
+        remedy = next(filter(bench.holds, known), ()) or next(filter(bench.leads, bench.of_refusal(error)), ())
+        if not remedy or (leads and not bench.holds(remedy)):
+            return error
     known.append(remedy)
     again = anew(error)
     again.fix = fix_words(remedy, relaxes=design.asks_less(key for key, _ in remedy))
     return again
+
+
+@contextmanager
+def _unheard() -> Iterator[None]:
+    """Whoever reads a terminal did not ask for a changed design, which may divide by zero before it is refused."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        yield
 
 
 def _is_sought(design: Design, found: Check) -> bool:

@@ -300,6 +300,11 @@ class MeasuredCamLoads(FollowerCamLoads, CamLoadsDesign):
 
         return self.of_file(MeasuredCamDesign)
 
+    @property
+    def cost(self) -> float:
+        """With the motion, which is sought on the profile."""
+        return super().cost + self.design.cost
+
 
 class SlidingOnCam:
     """The contact of a face or an edge in the words of a roller, as far as it has them; neither rolls."""

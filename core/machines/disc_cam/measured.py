@@ -630,6 +630,11 @@ class MeasuredCamDesign(DiscCamDesign):
 
     ways = Design.ways
 
+    @property
+    def cost(self) -> float:
+        """A series is fitted, and followed round the turn: a tenth of a second, three where its follower jams."""
+        return 60.0
+
     def candidates(self, check: str) -> Iterator[Remedy]:
         """Where the cam is refused, fewer harmonics, by a quarter each time: noise has many."""
         order = self.spec.order if check == REFUSAL else 0

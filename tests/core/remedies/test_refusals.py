@@ -18,6 +18,7 @@ from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.remedies.trials import with_fix
 from gearlink.core.base.remedies.ways import printed
 from gearlink.core.base.spec_paths import put
+from gearlink.core.machines.disc_cam.measured import Series
 
 _SET = re.compile(r"(?:set|and) ([\w.\[\]]+) (?:to at most|to at least|to|above|below|from) (-?[\d.]+(?:e[-+]?\d+)?)")
 _REMOVED = re.compile(r"remove ([\w.]+)")
@@ -60,7 +61,7 @@ def told(fix: str) -> dict[str, Any]:
         ("cam", "ty460", {"cam__return_angle": 300}),
         ("cam", "ty460", {"cam__lead_in": 350}),
         ("synth dwell", "candy_feed", {"gears__crank": 60}),
-        ("analyze", "planar_watt", {"links__rocker__C[0]": 36.4}),
+        pytest.param("analyze", "planar_watt", {"links__rocker__C[0]": 36.4}, marks=pytest.mark.slow),
         ("analyze", "planar_five_bar", {"links__follower[2]": 24.55}),
         ("analyze", "measured_cam", {"profile__points[83][1]": 39.3}),
         ("analyze", "mutilated_gear_press", {"gears__driven": 46}),
@@ -152,3 +153,24 @@ def test_an_axis_that_no_key_clears_is_left_to_the_planes() -> None:
     keys = {"pivots__output": [217.5, 55]}
     for check in asked("swing_gripper", **keys).of("cam").findings("cam", "shaft-clearance"):
         assert check.remedy or check.status == "pass" or "before the plane of the" in check.advice
+
+
+def test_what_a_tried_change_divides_by_is_not_told() -> None:
+    """Of this cam the arcs of a tried nose meet beyond rounding; a warning is an error here."""
+    error = refusal("cam", "tangent_cam", profile__lift=1.75e7)
+    assert "nose_radius" in error.message
+    assert told(error.fix)
+
+
+def test_a_cam_that_takes_long_to_judge_is_tried_few_times(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every number of the file was tried in both senses: 40 s."""
+    fitted: list[int] = []
+    before = Series.fitted
+
+    def counted(*arguments: Any) -> Series:
+        fitted.append(1)
+        return before(*arguments)
+
+    monkeypatch.setattr(Series, "fitted", counted)
+    refusal("analyze", "measured_cam", **{"profile__points[31][1]": 3.8e7})
+    assert len(fitted) <= 12
