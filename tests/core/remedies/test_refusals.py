@@ -156,10 +156,9 @@ def test_an_axis_that_no_key_clears_is_left_to_the_planes() -> None:
 
 
 def test_what_a_tried_change_divides_by_is_not_told() -> None:
-    """Of this cam the arcs of a tried nose meet beyond rounding; a warning is an error here."""
-    error = refusal("cam", "tangent_cam", profile__lift=1.75e7)
-    assert "nose_radius" in error.message
-    assert told(error.fix)
+    """A cam that is tried has a corner where its roller rolls on nothing; a warning is an error here."""
+    error = refusal("cam", "loaded_cam", follower__roller_radius=150)
+    assert told(error.fix) == {"cam__prime_radius": 150}
 
 
 def test_a_cam_that_takes_long_to_judge_is_tried_few_times(monkeypatch: pytest.MonkeyPatch) -> None:
